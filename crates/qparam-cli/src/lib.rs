@@ -1,0 +1,3 @@
+//! The `qparam` command line: arguments, files, progress, reports. The only crate that prints.
+
+pub use qoptimize::{self, qcurv, qembed, qmesh, qsimplify, qsolve};

@@ -1,0 +1,2 @@
+//! The `qparam` command.
+fn main() {}

@@ -1,0 +1,47 @@
+//! Chores of the workspace: `cargo xtask TASK`.
+//!
+//! Each task is one file; the table below is the help text.
+
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command line tool")]
+
+use std::process::ExitCode;
+
+/// A task gets the arguments after its name.
+type Task = fn(&[String]) -> Result<(), String>;
+
+const TASKS: &[(&str, &str, Task)] = &[
+    (
+        "fixtures",
+        "regenerate fixtures/ from formulas, byte for byte; --check compares instead",
+        fixtures::run,
+    ),
+    ("tidy", "house rules: the chain of crates, module headers, every equation cited", tidy::run),
+];
+
+mod fixtures;
+mod tidy;
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let Some((name, rest)) = arguments.split_first() else {
+        return usage();
+    };
+    let Some((_, _, task)) = TASKS.iter().find(|(known, _, _)| known == name) else {
+        return usage();
+    };
+    match task(rest) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{name}: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn usage() -> ExitCode {
+    eprintln!("usage: cargo xtask TASK\n");
+    for (name, what, _) in TASKS {
+        eprintln!("  {name:10} {what}");
+    }
+    ExitCode::from(2)
+}

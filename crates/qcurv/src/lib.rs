@@ -1,64 +1,55 @@
 //! How a quad mesh bends: Gaussian curvature per vertex (Eqs. 1-4 of the paper).
 //!
-//! TODO-docs: purpose, compiled example, guarantees and limits.
+//! The curvature of a vertex is what its corner angles lack of a full turn ([`integrated_curvature`], Eq. 1),
+//! divided by the area that is attributed to it ([`gaussian_curvature`], Eq. 2): the Voronoi cell of the vertex
+//! inside its corner triangles ([`voronoi_cell_area`], Eqs. 3 and 4 with the obtuse cases corrected). Everything is
+//! computed on the *corner triangles* (previous vertex, corner, next vertex), so no diagonal of a quad is preferred.
+//!
+//! ```
+//! use qcurv::qmesh::QuadMesh;
+//! use std::f64::consts::{FRAC_PI_2, TAU};
+//!
+//! // Three squares around one corner of a cube: three right angles, a quarter turn less than flat.
+//! let mesh = QuadMesh::from_slices(
+//!     &[[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.], [0., 1., 1.], [0., 0., 1.], [1., 0., 1.]],
+//!     [[0, 1, 2, 3], [0, 3, 4, 5], [0, 5, 6, 1]],
+//! )?;
+//! let curvature = qcurv::integrated_curvature(&mesh);
+//! assert!((curvature[0] - FRAC_PI_2).abs() < 1e-12);
+//! assert!((curvature.iter().sum::<f64>() - TAU).abs() < 1e-12); // Gauss-Bonnet: the faces are planar
+//! # Ok::<(), qcurv::qmesh::BuildError>(())
+//! ```
+//!
+//! Guaranteed: finite values for every mesh that can be built, degenerate faces included (each function says which);
+//! the same bits for any number of threads; no cell has negative area; and `Σ_v K̄_v − Σ_f δ_f = 2πχ` up to rounding
+//! ([`face_defects`] are the `δ_f` that quads add when they are not planar). Not guaranteed: that the Voronoi cells
+//! add up to the surface (they do where quads are rectangles; elsewhere they miss a few percent at most on usual
+//! meshes), nor that `K` converges to the curvature of a smooth surface: it does where the quads tend to rectangles;
+//! rhombic ones stay skew at any fineness, and `K` is then too large by the faces' share (3.5 % on a cube-sphere).
+//! `K̄` and `K` see Gaussian curvature only: along the crease of a developable both are zero.
 
+mod angle;
+mod area;
+mod gaussian;
+mod triangle;
+mod vertex_area;
+
+pub use angle::{corner_angle, corner_angles, face_defects};
+pub use area::{corner_area, corner_areas, face_area, face_areas, surface_area};
+pub use gaussian::{gaussian_curvature, integrated_curvature};
 pub use qmesh;
-use qmesh::{CornerData, CornerId, FaceData, QuadMesh, VertexData};
+pub use triangle::{triangle_area, voronoi_cell_area};
+pub use vertex_area::{VertexArea, vertex_areas};
 
-/// Which area is attributed to a vertex (Eq. 2).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-pub enum VertexArea {
-    /// The Voronoi cell of the vertex inside its corner triangles (Eqs. 3 and 4, corrected).
-    #[default]
-    Voronoi,
-    /// The plain sum of the adjacent faces' areas, as the text under Eq. 2 says.
-    FaceSum,
-}
+use qmesh::{ElementData, Id};
+use rayon::prelude::*;
 
-/// The angle in space at `corner`, in `[0, π]`.
-#[must_use]
-pub fn corner_angle(_mesh: &QuadMesh, _corner: CornerId) -> f64 {
-    unimplemented!()
-}
-/// The area of the corner triangle (previous, here, next).
-#[must_use]
-pub fn corner_area(_mesh: &QuadMesh, _corner: CornerId) -> f64 {
-    unimplemented!()
-}
-/// All corner angles.
-#[must_use]
-pub fn corner_angles(_mesh: &QuadMesh) -> CornerData<f64> {
-    unimplemented!()
-}
-/// All corner areas.
-#[must_use]
-pub fn corner_areas(_mesh: &QuadMesh) -> CornerData<f64> {
-    unimplemented!()
-}
-/// Area of the surface; a quad counts the mean of its two diagonal splits.
-#[must_use]
-pub fn surface_area(_mesh: &QuadMesh) -> f64 {
-    unimplemented!()
-}
-/// S of Eq. 2.
-#[must_use]
-pub fn vertex_areas(_mesh: &QuadMesh, _area: VertexArea) -> VertexData<f64> {
-    unimplemented!()
-}
-/// K̄ of Eq. 1; at the boundary π − Σθ.
-#[must_use]
-pub fn integrated_curvature(_mesh: &QuadMesh) -> VertexData<f64> {
-    unimplemented!()
-}
-/// K of Eq. 2.
-#[must_use]
-pub fn gaussian_curvature(_mesh: &QuadMesh, _area: VertexArea) -> VertexData<f64> {
-    unimplemented!()
-}
-/// What the corner angles of each face lack of (n − 2)π.
-#[must_use]
-pub fn face_defects(_mesh: &QuadMesh) -> FaceData<f64> {
-    unimplemented!()
+/// Below this many elements a task is not worth its hand-over to another thread.
+const MIN_TASK: usize = 2048;
+
+/// One value per element, computed by index: the result does not depend on the number of threads.
+fn par_data<I: Id, T: Send>(count: usize, value: impl Fn(I) -> T + Sync) -> ElementData<I, T> {
+    ElementData::from_vec(
+        (0..count).into_par_iter().with_min_len(MIN_TASK).map(|i| value(I::from_index(i))).collect(),
+    )
 }

@@ -6,7 +6,7 @@
 //! computed on the *corner triangles* (previous vertex, corner, next vertex), so no diagonal of a quad is preferred.
 //!
 //! ```
-//! use qcurv::qmesh::QuadMesh;
+//! use qcurv::qmesh::{QuadMesh, VertexId};
 //! use std::f64::consts::{FRAC_PI_2, TAU};
 //!
 //! // Three squares around one corner of a cube: three right angles, a quarter turn less than flat.
@@ -15,7 +15,7 @@
 //!     [[0, 1, 2, 3], [0, 3, 4, 5], [0, 5, 6, 1]],
 //! )?;
 //! let curvature = qcurv::integrated_curvature(&mesh);
-//! assert!((curvature[0] - FRAC_PI_2).abs() < 1e-12);
+//! assert!((curvature[VertexId(0)] - FRAC_PI_2).abs() < 1e-12);
 //! assert!((curvature.iter().sum::<f64>() - TAU).abs() < 1e-12); // Gauss-Bonnet: the faces are planar
 //! # Ok::<(), qcurv::qmesh::BuildError>(())
 //! ```

@@ -1,1 +1,27 @@
-//! Meshes from formulas.
+//! Meshes from formulas: flat, bent and closed ones to test with, and a face and a head to look at.
+//!
+//! Every shape is an oriented [`QuadMesh`](crate::QuadMesh) of quads alone, counter-clockwise seen from outside (or
+//! from above, for flat ones and height fields). Resolutions out of range are clamped, as each shape says; no
+//! argument panics. The same arguments give the same bits on every machine: only `+ − × / √` are used.
+//!
+//! ```
+//! let mesh = qmesh::shapes::grid(2, 2);
+//! assert!(mesh.topology().is_disk());
+//! ```
+
+mod bent;
+mod elementary;
+mod grid;
+mod heights;
+mod lattice;
+mod round;
+mod union;
+
+pub use bent::{cylinder, cylinder_strip, torus};
+pub use grid::{graded_grid, grid, jittered_grid};
+pub use heights::{bump, nose, saddle};
+pub use round::{cap, disk, finger, sphere};
+pub use union::disjoint_union;
+
+#[cfg(test)]
+mod tests;

@@ -28,7 +28,7 @@ pub fn grid(columns: usize, rows: usize) -> QuadMesh {
 ///
 /// ```
 /// let mesh = qmesh::shapes::graded_grid(3, 1, 2.0); // widths 3/7, 6/7, 12/7
-/// assert!((mesh.positions()[1].x - 3.0 / 7.0).abs() < 1e-15);
+/// assert!((mesh.position(qmesh::VertexId(1)).x - 3.0 / 7.0).abs() < 1e-15);
 /// ```
 #[must_use]
 pub fn graded_grid(columns: usize, rows: usize, ratio: f64) -> QuadMesh {

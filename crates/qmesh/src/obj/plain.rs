@@ -1,0 +1,82 @@
+//! OBJ text for polygons that never were a file.
+
+use std::io::{self, Write};
+
+use super::output::Output;
+use super::texture::{TextureTable, UvFormat, invalid};
+use crate::polygons::PolygonView;
+use crate::{QuadMesh, Vec2};
+
+/// Writes polygons as OBJ text: `v` lines, `vt` lines if there are UVs (one per corner), `f` lines. Lines end with LF.
+///
+/// ```
+/// let square = qmesh::Polygons::new(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 2.5, 0.0]], [[0, 1, 2]]);
+/// let mut out = Vec::new();
+/// qmesh::obj::write_obj(&mut out, square.view(), None)?;
+/// assert_eq!(out, b"v 0.0 0.0 0.0\nv 1.0 0.0 0.0\nv 1.0 2.5 0.0\nf 1 2 3\n");
+/// # Ok::<(), std::io::Error>(())
+/// ```
+///
+/// # Errors
+/// What `out` reports, and `InvalidInput` when the flat arrays contradict each other, a position or UV is not finite,
+/// or there is not one UV per corner; then nothing is written.
+pub fn write_obj(
+    out: &mut impl Write,
+    polygons: PolygonView<'_>,
+    corner_uv: Option<&[Vec2]>,
+) -> io::Result<()> {
+    check(polygons)?;
+    let format = UvFormat::default();
+    let table = corner_uv
+        .map(|uv| TextureTable::new(polygons.positions.len(), polygons.corner_vertex, uv, format))
+        .transpose()?;
+    let mut out = Output::new(out);
+    for position in polygons.positions {
+        out.vertex(position)?;
+        out.bytes(b"\n")?;
+    }
+    for &uv in table.iter().flat_map(|table| &table.values) {
+        out.texture(uv, format)?;
+        out.bytes(b"\n")?;
+    }
+    for face in 0..polygons.face_count() {
+        out.bytes(b"f")?;
+        for corner in polygons.corners(face) {
+            out.bytes(b" ")?;
+            out.integer(polygons.corner_vertex[corner] as usize + 1)?;
+            if let Some(table) = &table {
+                out.bytes(b"/")?;
+                out.integer(table.of_corner[corner] as usize + 1)?;
+            }
+        }
+        out.bytes(b"\n")?;
+    }
+    out.flush()
+}
+
+/// A mesh as OBJ text, as [`write_obj`] writes its polygons; vertices are numbered as in the mesh.
+///
+/// # Errors
+/// As [`write_obj`].
+pub fn write_mesh(out: &mut impl Write, mesh: &QuadMesh, corner_uv: Option<&[Vec2]>) -> io::Result<()> {
+    write_obj(out, mesh.view(), corner_uv)
+}
+
+fn check(polygons: PolygonView<'_>) -> io::Result<()> {
+    let PolygonView { positions, face_start, corner_vertex } = polygons;
+    let ends = (face_start.first().copied(), face_start.last().copied());
+    let is_covered = match ends {
+        (None, None) => corner_vertex.is_empty(),
+        (first, last) => first == Some(0) && last.map(|end| end as usize) == Some(corner_vertex.len()),
+    };
+    if !is_covered || face_start.windows(2).any(|pair| pair[0] > pair[1]) {
+        return Err(invalid("face_start does not divide the corners".to_owned()));
+    }
+    if let Some(vertex) = corner_vertex.iter().find(|&&vertex| vertex as usize >= positions.len()) {
+        return Err(invalid(format!("a face names vertex {vertex} of {}", positions.len())));
+    }
+    match positions.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
+        Some(vertex) => Err(invalid(format!("vertex {vertex} is not finite"))),
+        None => Ok(()),
+    }
+}

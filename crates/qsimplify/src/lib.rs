@@ -1,137 +1,139 @@
 //! Fewer vertices: removal of vertices of low Gaussian curvature (section 2.1 of the paper).
+//!
+//! [`simplify`] sorts the interior vertices by the absolute value of their curvature ([`removal_order`]) and removes
+//! those below a threshold, as far as the [`RemovalRule`] lets them go. What is left is a polygon graph over vertices
+//! of the full mesh: its edges are the springs of Eq. 5, its boundary is that of the mesh.
+//!
+//! ```
+//! use qsimplify::qmesh::QuadMesh;
+//! use qsimplify::{SimplifyOptions, simplify};
+//!
+//! // A grid of 6 by 6 quads with a bump.
+//! let height = |x: f64, y: f64| (-(x - 3.0).powi(2) - (y - 3.0).powi(2)).exp();
+//! let positions: Vec<[f64; 3]> =
+//!     (0..49).map(|i| (f64::from(i % 7), f64::from(i / 7))).map(|(x, y)| [x, y, height(x, y)]).collect();
+//! let quads = (0..36u32).map(|i| i + i / 6).map(|v| [v, v + 1, v + 8, v + 7]);
+//! let mesh = QuadMesh::from_slices(&positions, quads)?;
+//!
+//! let simplified = simplify(&mesh, &SimplifyOptions::default(), &())?;
+//! assert!(!simplified.removed.is_empty());
+//! let graph = QuadMesh::build(simplified.polygons(&mesh))?; // a valid mesh again, of the same topology
+//! assert_eq!(graph.topology(), mesh.topology());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Guaranteed: boundary vertices stay; with the rules `Guarded` and `Ring` the Euler characteristic and the boundary
+//! loops stay, and no two faces come to share two vertices without sharing the edges between them, so a 3-connected
+//! graph stays 3-connected and Tutte's theorem holds for Eq. 5 (each rule says what it means by that). Ties in
+//! curvature, up to rounding, are broken by index; the result does not depend on the number of threads. Time grows
+//! with the sizes of the faces and fans around the candidates: 190,000 quads take a fraction of a second.
+//!
+//! Not guaranteed: that all candidates go, nor that the largest possible number does: each is tried once, in order.
+//! `Guarded` ends near a fifth of the interior vertices on real quad meshes, `Ring` near 95 %. `Naive` is deletion as the
+//! paper prints it and leaves isolated vertices, chains and islands behind, for which Eq. 5 has no answer;
+//! [`Simplified::connectivity`] counts them. Nothing shows that simplification lowers distortion.
 
-use qcurv::VertexArea;
-pub use qcurv::{self, qmesh};
-use qmesh::{Observer, Polygons, QuadMesh, VertexData, VertexId};
+mod error;
+mod options;
+mod order;
+mod simplified;
 
-/// What keeps the simplified graph fit for section 2.2.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-pub enum RemovalRule {
-    /// Pure deletion that keeps the polygon graph 3-connected.
-    #[default]
-    Guarded,
-    /// Deletion, then the neighbours are joined in a ring.
-    Ring,
-    /// Eq. 5 on the full graph; only kept vertices keep their positions.
-    Carrier,
-    /// Deletion as printed, with nothing guarded.
-    Naive,
-    /// Every interior vertex goes; only the boundary is kept.
-    All,
-    /// Nothing is removed: Eq. 5 alone.
-    None,
-}
+mod components;
+mod graph;
+mod guarded;
+mod meetings;
+mod naive;
+mod ring;
 
-/// Which curvature decides.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-pub enum CurvatureMeasure {
-    /// |K| of Eq. 2, times total area / 4π.
-    #[default]
-    Normalized,
-    /// |K̄| of Eq. 1.
-    Integrated,
-}
+pub use error::SimplifyError;
+pub use options::{CurvatureMeasure, RemovalRule, RemovedSide, SimplifyOptions, Threshold};
+pub use order::{RemovalOrder, removal_order};
+pub use qcurv::{self, VertexArea, qmesh};
+pub use simplified::{Connectivity, Simplified};
 
-/// Where low curvature ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-pub enum Threshold {
-    /// Remove vertices below this value of the measure.
-    Value(f64),
-    /// Remove this fraction of the interior vertices, in order (0 to 1).
-    Fraction(f64),
-}
+use graph::PolygonGraph;
+use qmesh::{Observer, QuadMesh, VertexData, VertexId};
 
-/// Which side of the threshold is removed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-pub enum RemovedSide {
-    /// Low curvature goes, as the paper's text says six times.
-    #[default]
-    Low,
-    /// High curvature goes, as step 3 of section 2.1 is printed.
-    High,
-}
+/// Candidates between two looks at the observer.
+const OBSERVED_EVERY: usize = 4096;
 
-/// How to simplify.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct SimplifyOptions {
-    /// Default `Guarded`.
-    pub rule: RemovalRule,
-    /// Default `Normalized`.
-    pub measure: CurvatureMeasure,
-    /// Default `Voronoi`.
-    pub area: VertexArea,
-    /// Default: half of the interior vertices are candidates.
-    pub threshold: Threshold,
-    /// Default `Low`.
-    pub side: RemovedSide,
-}
-
-impl Default for SimplifyOptions {
-    fn default() -> Self {
-        Self {
-            rule: RemovalRule::default(),
-            measure: CurvatureMeasure::default(),
-            area: VertexArea::default(),
-            threshold: Threshold::Fraction(0.5),
-            side: RemovedSide::default(),
-        }
-    }
-}
-
-/// The simplified mesh and the record of what was removed.
-#[derive(Clone, Debug)]
-pub struct Simplified {
-    /// Whether each vertex is kept. Boundary vertices always are.
-    pub kept: VertexData<bool>,
-    /// The removed vertices in the order of their removal.
-    pub removed: Vec<VertexId>,
-    /// How many interior vertices lay on the removed side of the threshold.
-    pub candidates: usize,
-    /// The edges of Eq. 5, each once, smaller vertex first, sorted. With rule `Carrier`, those of the full mesh.
-    pub springs: Vec<[VertexId; 2]>,
-    /// The faces of the simplified polygon mesh over the vertices of the full mesh, flat as in [`Polygons`].
-    pub face_start: Vec<u32>,
-    /// The vertices of those faces.
-    pub face_vertex: Vec<VertexId>,
-}
-
-impl Simplified {
-    /// The simplified mesh as polygons, vertices renumbered, for looking at it.
-    #[must_use]
-    pub fn polygons(&self, _mesh: &QuadMesh) -> Polygons {
-        unimplemented!()
-    }
-}
-
-/// Why nothing was simplified.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SimplifyError {
-    /// The threshold is not a number, negative, or a fraction above one.
-    #[error("the threshold {0} is out of range: a value must be at least 0, a fraction between 0 and 1")]
-    BadThreshold(f64),
-    /// The observer asked to stop.
-    #[error("cancelled")]
-    Cancelled,
-}
-
-/// Section 2.1.
+/// Section 2.1: removes vertices of low curvature, in order.
+///
+/// Any mesh will do, with any number of components and boundary loops, or closed. Each candidate is tried once, when
+/// its turn comes; one that is refused then is not tried again, although later removals may have made room for it.
 ///
 /// # Errors
-/// See [`SimplifyError`].
+/// [`SimplifyError::BadThreshold`] when the threshold is out of range (whether or not the rule uses it), and
+/// [`SimplifyError::Cancelled`] when the observer says so.
 pub fn simplify(
-    _mesh: &QuadMesh,
-    _options: &SimplifyOptions,
-    _observer: &dyn Observer,
+    mesh: &QuadMesh,
+    options: &SimplifyOptions,
+    observer: &dyn Observer,
 ) -> Result<Simplified, SimplifyError> {
-    unimplemented!()
+    options.check()?;
+    report(observer, 0.0)?;
+    let threshold = match options.rule {
+        RemovalRule::All => Threshold::Fraction(1.0),
+        RemovalRule::None => Threshold::Fraction(0.0),
+        _ => options.threshold,
+    };
+    let candidates = removal_order(mesh, &SimplifyOptions { threshold, ..*options })?.candidates;
+    let simplified = match options.rule {
+        RemovalRule::Guarded => by_graph(mesh, &candidates, observer, guarded::Guarded::new)?,
+        RemovalRule::Ring => by_graph(mesh, &candidates, observer, ring::Ring::new)?,
+        RemovalRule::Carrier => {
+            let mut full = Simplified::full(mesh);
+            full.remove(&candidates);
+            full
+        }
+        RemovalRule::Naive | RemovalRule::All => naive::delete(mesh, &candidates),
+        RemovalRule::None => Simplified::full(mesh),
+    };
+    report(observer, 1.0)?;
+    Ok(simplified)
+}
+
+/// A way to take single vertices out of a polygon graph.
+trait Removal {
+    /// Removes `vertex` from `graph` if that harms nothing, and says whether it did.
+    fn try_remove(&mut self, graph: &mut PolygonGraph, vertex: u32) -> bool;
+}
+
+fn by_graph<R: Removal>(
+    mesh: &QuadMesh,
+    candidates: &[VertexId],
+    observer: &dyn Observer,
+    removal: impl FnOnce(&PolygonGraph) -> R,
+) -> Result<Simplified, SimplifyError> {
+    let mut graph = PolygonGraph::new(mesh);
+    let mut removal = removal(&graph);
+    let mut removed = Vec::new();
+    for (done, &vertex) in candidates.iter().enumerate() {
+        if done % OBSERVED_EVERY == 0 {
+            report(observer, done as f64 / candidates.len() as f64)?;
+        }
+        if removal.try_remove(&mut graph, vertex.0) {
+            removed.push(vertex);
+        }
+    }
+    let mut kept = VertexData::filled(mesh.vertex_count(), true);
+    for &vertex in &removed {
+        kept[vertex] = false;
+    }
+    let (face_start, face_vertex) = graph.faces();
+    Ok(Simplified {
+        kept,
+        removed,
+        candidates: candidates.len(),
+        springs: graph.edges(),
+        face_start,
+        face_vertex,
+    })
+}
+
+fn report(observer: &dyn Observer, fraction: f64) -> Result<(), SimplifyError> {
+    match observer.progress("simplify", fraction) {
+        std::ops::ControlFlow::Continue(()) => Ok(()),
+        std::ops::ControlFlow::Break(()) => Err(SimplifyError::Cancelled),
+    }
 }

@@ -1,104 +1,59 @@
-//! Sparse linear systems: every answer with its true residual.
+//! Sparse linear systems for mesh processing: every answer with its true residual.
+//!
+//! ```
+//! use qsolve::{DMatrix, SolveOptions, Structure, Triplets};
+//!
+//! // A chain of three springs between walls at 0 and 1: the two free ends come to rest at 1/3 and 2/3.
+//! let mut triplets = Triplets::new(2, 2);
+//! for (row, column, value) in [(0, 0, 2.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 2.0)] {
+//!     triplets.add(row, column, value);
+//! }
+//! let rhs = DMatrix::from_vec(2, 1, vec![0.0, 1.0]);
+//! let structure = Structure::SymmetricPositiveDefinite;
+//! let (x, record) = qsolve::solve(&triplets.build()?, structure, &rhs, &SolveOptions::default())?;
+//! assert!((x[(0, 0)] - 1.0 / 3.0).abs() < 1e-15);
+//! assert!(record.relative_residual < 1e-15);
+//! # Ok::<(), qsolve::SolveError>(())
+//! ```
+//!
+//! Guaranteed: an answer comes with `‖b − A x‖ / ‖b‖`, computed afresh from the matrix that was handed over, and is
+//! refused above the caller's bound. The same input gives the same bits for any number of threads. Bad input is an
+//! error that names the entry. Not guaranteed: that the error is as small as the residual, which it exceeds by up to
+//! the condition number; and the same bits on another machine, since faer adapts its kernels to the processor.
+//!
+//! Limits: real square systems. Patterns and factors are indexed in 32 bits (about two thousand million entries).
+//! Factorizations and triangular solves run on one thread, one right-hand side a thread. There is no multigrid
+//! yet: another [`LinearSolver`] can be put beside [`Factor`] and [`Krylov`].
 
+// In reading order.
+mod assembly;
+mod options;
+mod solve;
+
+mod solver;
+
+mod direct;
+
+mod columns;
+mod factors;
+
+mod krylov;
+
+mod incomplete;
+mod preconditioner;
+mod symmetrized;
+
+mod check;
+mod error;
+mod product;
+
+pub use assembly::Triplets;
+pub use direct::{Factor, Symbolic};
+pub use error::SolveError;
+pub use krylov::Krylov;
 pub use nalgebra::DMatrix;
 pub use nalgebra_sparse::{self, CsrMatrix};
+pub use options::{Backend, SolveMethod, SolveOptions, SolveRecord, Structure};
 pub use qsimplify::{self, qcurv, qmesh};
-
-/// Which factorization fits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Structure {
-    /// Symmetric and positive definite: Cholesky.
-    SymmetricPositiveDefinite,
-    /// Anything else that is square: LU, or BiCGStab where that is too large.
-    General,
-}
-
-/// Which backend solves.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-pub enum Backend {
-    /// Direct where the estimated fill allows, iterative above.
-    #[default]
-    Auto,
-    /// Sparse factorization.
-    Direct,
-    /// Krylov iterations.
-    Iterative,
-}
-
-/// How to solve.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct SolveOptions {
-    /// Default `Auto`.
-    pub backend: Backend,
-    /// An answer with a larger relative residual is refused. Default `1e-8`.
-    pub residual_bound: f64,
-    /// Krylov iterations at most. Default 2000.
-    pub max_iterations: usize,
-}
-impl Default for SolveOptions {
-    fn default() -> Self {
-        Self { backend: Backend::Auto, residual_bound: 1e-8, max_iterations: 2000 }
-    }
-}
-
-/// What ran.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-pub enum SolveMethod {
-    /// Sparse Cholesky.
-    Cholesky,
-    /// Sparse LU.
-    Lu,
-    /// Preconditioned BiCGStab.
-    BiCgStab,
-}
-
-/// How a system was solved, and how well.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub struct SolveRecord {
-    /// Unknowns.
-    pub unknowns: usize,
-    /// Stored entries of the matrix.
-    pub nonzeros: usize,
-    /// What ran in the end.
-    pub method: SolveMethod,
-    /// Largest over the right-hand sides of `‖b − A x‖₂ / ‖b‖₂`, computed afresh from the matrix.
-    pub relative_residual: f64,
-    /// Krylov iterations or refinement steps.
-    pub iterations: usize,
-}
-
-/// Solves `A X = B`, `A` n × n, `B` n × k.
-///
-/// # Errors
-/// See [`SolveError`].
-pub fn solve(
-    _matrix: &CsrMatrix<f64>,
-    _structure: Structure,
-    _rhs: &DMatrix<f64>,
-    _options: &SolveOptions,
-) -> Result<(DMatrix<f64>, SolveRecord), SolveError> {
-    unimplemented!()
-}
-
-/// Why there is no answer.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SolveError {
-    /// The residual stayed above the bound.
-    #[error(
-        "the linear system could not be solved: relative residual {residual:.1e}, at most {bound:.1e} is accepted"
-    )]
-    Inaccurate {
-        /// What was reached.
-        residual: f64,
-        /// What was asked.
-        bound: f64,
-    },
-}
+pub use solve::solve;
+pub use solver::LinearSolver;

@@ -35,7 +35,7 @@ enum Shape {
 #[derive(Debug)]
 pub(crate) enum Factors {
     Cholesky(Vec<f64>),
-    Lu(NumericLu<u32, f64>),
+    Lu(Box<NumericLu<u32, f64>>),
 }
 
 impl Analysis {
@@ -66,7 +66,7 @@ impl Analysis {
         let values = self.columns.values(matrix);
         match &self.shape {
             Shape::Cholesky(shape) => self.factor_cholesky(shape, &values, matrix).map(Factors::Cholesky),
-            Shape::Lu(shape) => self.factor_lu(shape, &values).map(Factors::Lu),
+            Shape::Lu(shape) => self.factor_lu(shape, &values).map(|factor| Factors::Lu(Box::new(factor))),
         }
     }
 

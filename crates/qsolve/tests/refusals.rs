@@ -12,13 +12,13 @@ fn matrix(rows: usize, columns: usize, entries: &[(usize, usize, f64)]) -> CsrMa
     for &(row, column, value) in entries {
         triplets.add(row, column, value);
     }
-    triplets.build().unwrap()
+    triplets.build().expect("all entries lie inside")
 }
 
 fn refusal(matrix: &CsrMatrix<f64>, structure: Structure, rhs: &DMatrix<f64>) -> SolveError {
     let errors = [Backend::Auto, Backend::Direct].map(|backend| {
         let options = SolveOptions { backend, ..Default::default() };
-        solve(matrix, structure, rhs, &options).unwrap_err()
+        solve(matrix, structure, rhs, &options).expect_err("no answer exists")
     });
     assert_eq!(errors[0], errors[1]);
     errors[0].clone()

@@ -44,7 +44,7 @@ pub(crate) fn spd(side: usize, contrast: f64, random: &mut Random) -> CsrMatrix<
             }
         }
     }
-    triplets.build().unwrap()
+    triplets.build().expect("all entries lie inside")
 }
 
 /// `I − Λ` with random Λ of row sum at most one: the row-normalised system of a grid, not symmetric.
@@ -68,7 +68,7 @@ pub(crate) fn row_normalized(side: usize, random: &mut Random) -> CsrMatrix<f64>
             }
         }
     }
-    triplets.build().unwrap()
+    triplets.build().expect("all entries lie inside")
 }
 
 /// Right-hand sides with entries in `[-1, 1)`.

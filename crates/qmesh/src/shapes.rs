@@ -9,16 +9,24 @@
 //! assert!(mesh.topology().is_disk());
 //! ```
 
+mod anatomy;
 mod bent;
+mod cage;
 mod elementary;
+mod face;
+mod front;
 mod grid;
+mod head;
 mod heights;
+mod implicit;
 mod lattice;
 mod round;
 mod union;
 
 pub use bent::{cylinder, cylinder_strip, torus};
+pub use face::face;
 pub use grid::{graded_grid, grid, jittered_grid};
+pub use head::head;
 pub use heights::{bump, nose, saddle};
 pub use round::{cap, disk, finger, sphere};
 pub use union::disjoint_union;

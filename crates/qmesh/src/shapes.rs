@@ -5,8 +5,8 @@
 //! argument panics. The same arguments give the same bits on every machine: only `+ − × / √` are used.
 //!
 //! ```
-//! let mesh = qmesh::shapes::grid(2, 2);
-//! assert!(mesh.topology().is_disk());
+//! let head = qmesh::shapes::head(2);
+//! assert!(head.topology().is_disk(), "its only boundary is the neck");
 //! ```
 
 mod anatomy;

@@ -3,8 +3,10 @@
 //! In decimetres: `x` to the head's left, `y` up from the eyes, `z` forward. Proportions are those of drawing books:
 //! eyes at half height, nose and mouth a quarter and a third of the way from there to the chin.
 
+use rayon::prelude::*;
+
 use super::implicit::{ball, capsule, carve, cast, ellipsoid, melt};
-use crate::Vec3;
+use crate::{QuadMesh, Vec3, VertexData};
 
 /// Where the eye is that has positive `x`.
 pub(crate) const EYE: [f64; 3] = [0.315, 0.0, 0.665];
@@ -23,7 +25,13 @@ pub(crate) const EAR_LEAN: f64 = 0.25;
 /// Farther from any origin of a ray than the head is large.
 const REACH: f64 = 2.2;
 
-/// The point of the head towards `target`, seen from the axis inside it.
+/// The mesh with every vertex moved along its ray onto the head.
+pub(crate) fn shrink_wrapped(mesh: QuadMesh) -> QuadMesh {
+    let positions = mesh.positions().par_iter().map(|&target| shrink_wrap(target)).collect();
+    mesh.with_positions(VertexData::from_vec(positions))
+}
+
+/// The point of the head towards `target`, seen from inside.
 pub(crate) fn shrink_wrap(target: Vec3) -> Vec3 {
     cast(head, origin(target), target, REACH)
 }
@@ -46,7 +54,7 @@ pub(crate) fn from_side(side: f64, y: f64, z: f64) -> Vec3 {
 /// From where rays leave. Their height is the same for all of the face, so that they rise steeply under the jaw, and
 /// that of the target at the foot of the neck. In front they run almost side by side: rays that fan out from the
 /// axis would miss the flanks of the nose.
-fn origin(target: Vec3) -> Vec3 {
+pub(super) fn origin(target: Vec3) -> Vec3 {
     const KNOTS: [[f64; 2]; 4] = [[-1.8, -1.8], [-1.2, -0.45], [-0.1, 0.1], [0.2, 0.15]];
     const PARALLEL: f64 = 0.75;
     const CHIN: f64 = -1.0;
@@ -65,8 +73,7 @@ fn head(p: Vec3) -> f64 {
     let side = Vec3::new(p.x.abs(), p.y, p.z);
     let skin = melt(skull(p, side), neck(p), 0.14);
     let skin = melt(skin, ear(side), 0.08);
-    let skin = mouth(nose(eye(skin, side), p, side), p, side);
-    skin
+    mouth(nose(eye(skin, side), p, side), p, side)
 }
 
 fn skull(p: Vec3, side: Vec3) -> f64 {
@@ -118,7 +125,7 @@ fn nose(skin: f64, p: Vec3, side: Vec3) -> f64 {
 fn mouth(skin: f64, p: Vec3, side: Vec3) -> f64 {
     let muzzle = ellipsoid(p, [0.0, -0.72, 0.52], [0.46, 0.30, 0.37]);
     let y = MOUTH_HEIGHT;
-    let upper = capsule(side, [[0.04, y + 0.042, 0.895], [0.24, y + 0.008, 0.825]], [0.045, 0.022]);
-    let lower = capsule(side, [[0.0, y - 0.055, 0.88], [0.22, y - 0.018, 0.825]], [0.055, 0.025]);
+    let upper = capsule(side, [[0.04, y + 0.042, 0.895], [0.24, y + 0.016, 0.825]], [0.045, 0.022]);
+    let lower = capsule(side, [[0.0, y - 0.055, 0.88], [0.22, y - 0.008, 0.825]], [0.055, 0.025]);
     melt(melt(skin, muzzle, 0.15), melt(upper, lower, 0.008), 0.03)
 }

@@ -70,7 +70,7 @@ fn rim(rows: &[Vec<u32>]) -> Vec<u32> {
     down.chain(right).chain(up).chain(left).collect()
 }
 
-/// One step of [CatmullClark1978], with cubic B-splines as boundary and corners of one quad kept. Vertices: the old
+/// One step of Catmull and Clark's subdivision (1978), with cubic B-splines as boundary and corners of one quad kept. Vertices: the old
 /// ones, then one an edge, then one a face; face `c` is the quarter at corner `c`, and begins with its old vertex.
 fn catmull_clark(mesh: &QuadMesh) -> QuadMesh {
     let middle = |face: FaceId| mesh.face_vertices(face).map(|v| mesh.position(v)).sum::<Vec3>() / 4.0;
@@ -111,7 +111,12 @@ fn catmull_clark(mesh: &QuadMesh) -> QuadMesh {
     for corner in mesh.corners() {
         let after = mesh.edge(corner.halfedge()).0;
         let before = mesh.edge(mesh.previous_corner(corner).halfedge()).0;
-        polygons.push_face(&[mesh.vertex(corner).0, edges + after, faces + mesh.face(corner).0, edges + before]);
+        polygons.push_face(&[
+            mesh.vertex(corner).0,
+            edges + after,
+            faces + mesh.face(corner).0,
+            edges + before,
+        ]);
     }
     built(polygons)
 }

@@ -145,6 +145,50 @@ fn a_cylinder_strip_is_made_of_equal_flat_squares() {
     }
 }
 
+/// Face and head are seen from their middle: every normal leaves the axis, or points down under nose, chin and ears.
+#[test]
+fn face_and_head_are_clean_disks_at_every_resolution() {
+    for detail in [0, 1, 2, 3, 5] {
+        for (name, mesh, quads) in [("face", face(detail), 176), ("head", head(detail), 680)] {
+            let name = format!("{name} of detail {detail}");
+            assert_eq!(mesh.face_count(), quads * detail.max(1).pow(2), "{name}");
+            check(&name, &mesh, DISK, |p| p - anatomy::origin(p));
+            check_mirror(&name, &mesh, 0);
+            let mut areas: Vec<f64> = mesh.faces().map(|face| area_vector(&mesh, face).norm()).collect();
+            areas.sort_unstable_by(f64::total_cmp);
+            assert!(areas[areas.len() - 1] < 100.0 * areas[0], "{name}: areas differ too much");
+        }
+    }
+}
+
+/// The mesh converges to one surface: more detail moves no point of it by more than a small part of a quad.
+#[test]
+fn more_detail_refines_the_same_head() {
+    let (coarse, fine) = (head(2), head(3));
+    let shared = head(1).vertex_count();
+    for (a, b) in coarse.positions().iter().zip(fine.positions().iter()).take(shared) {
+        assert!((a - b).norm() < 1e-9, "the vertices of the cage come first and stay");
+    }
+}
+
+/// In decimetres, what makes a head a head: the order of its features from above, and the nose as the foremost point.
+#[test]
+fn a_head_has_human_proportions() {
+    let mesh = head(4);
+    let foremost = |low: f64, high: f64| {
+        let middle = mesh.positions().iter().filter(|p| p.x.abs() < 0.03 && p.y > low && p.y < high);
+        middle.map(|p| p.z).fold(f64::MIN, f64::max)
+    };
+    let [forehead, root, nose, lip, chin] =
+        [(0.2, 0.5), (0.0, 0.1), (-0.5, -0.3), (-0.8, -0.65), (-1.1, -0.95)].map(|(a, b)| foremost(a, b));
+    assert!(nose > lip && lip > chin && nose > forehead && forehead > root - 0.05, "profile");
+    let extent = |axis: usize| mesh.positions().iter().map(|p| p[axis]).fold(f64::MIN, f64::max);
+    assert!((extent(2) - nose).abs() < 1e-12, "nothing reaches farther than the nose");
+    assert!((1.0..1.2).contains(&extent(1)) && (0.7..0.85).contains(&extent(0)), "crown and ears");
+    let [rim] = &mesh.boundary_loops()[..] else { panic!("one loop") };
+    assert!(rim.iter().all(|&h| mesh.position(mesh.origin(h)).y < -1.6), "the neck is the boundary");
+}
+
 #[test]
 fn a_union_keeps_both_parts_clear_of_each_other() {
     let both = disjoint_union(&torus(6, 4), &sphere(2)).unwrap();

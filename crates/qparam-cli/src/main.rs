@@ -1,2 +1,39 @@
-//! The `qparam` command.
-fn main() {}
+//! The `qparam` command: connects the process to the library.
+
+use std::io::{self, IsTerminal};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anstream::{AutoStream, ColorChoice};
+use qparam_cli::{Environment, Exit, Interrupt, Streams, run};
+
+static INTERRUPT: Interrupt = Interrupt::new();
+
+fn main() -> ExitCode {
+    // Without a handler ctrl-C still ends the process, only less politely.
+    let _ = ctrlc::set_handler(|| {
+        if INTERRUPT.request() {
+            std::process::exit(i32::from(Exit::Interrupted.code()));
+        }
+    });
+    let mut streams = Streams {
+        stdout_color: AutoStream::choice(&io::stdout()) != ColorChoice::Never,
+        stderr_color: AutoStream::choice(&io::stderr()) != ColorChoice::Never,
+        stderr_is_terminal: io::stderr().is_terminal(),
+        stdin: &mut io::stdin(),
+        stdout: &mut io::stdout(),
+        stderr: &mut io::stderr(),
+        interrupt: &INTERRUPT,
+    };
+    ExitCode::from(run(std::env::args_os(), &environment(), &mut streams).code())
+}
+
+fn environment() -> Environment {
+    let variable = |name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    Environment {
+        working_directory: std::env::current_dir().unwrap_or_default(),
+        config_home: variable("XDG_CONFIG_HOME")
+            .or_else(|| variable("HOME").map(|home| home.join(".config")))
+            .or_else(|| variable("APPDATA")),
+    }
+}

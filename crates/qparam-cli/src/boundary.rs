@@ -1,0 +1,100 @@
+//! Positions for a fixed boundary: from an OBJ with UVs, or from a list `vertex u v`.
+
+use std::io::Read;
+use std::path::Path;
+
+use qoptimize::qmesh::obj::ObjDocument;
+use qoptimize::qmesh::{QuadMesh, Vec2, VertexId};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::{Input, name_of, read_bytes, unparsed};
+
+/// One position for each boundary vertex of `mesh`, in the order of the vertices.
+pub(crate) fn read(
+    path: &Path,
+    stdin: &mut dyn Read,
+    mesh: &QuadMesh,
+    input: &Input,
+) -> Result<Vec<(VertexId, Vec2)>, Failure> {
+    let name = name_of(path);
+    let bytes = read_bytes(path, stdin)?;
+    let mut given = vec![None; mesh.source_vertex_count()];
+    if is_obj(&bytes) {
+        from_obj(&name, bytes, &mut given)?;
+    } else {
+        from_list(&name, &bytes, &mut given)?;
+    }
+    let boundary = mesh.vertices().filter(|&vertex| mesh.is_boundary(vertex));
+    boundary
+        .map(|vertex| {
+            let source = mesh.source_vertex(vertex);
+            given[source as usize].map(|uv| (vertex, uv)).ok_or_else(|| {
+                let place = input.at_vertex(source);
+                Failure::new(Exit::Input, format!("{name}: no position for vertex {} ({place})", source + 1))
+                    .help("every vertex on the boundary needs one; `qparam info` counts them")
+            })
+        })
+        .collect()
+}
+
+/// Lists start lines with numbers, OBJ files with keywords.
+fn is_obj(bytes: &[u8]) -> bool {
+    bytes
+        .split(|&byte| byte == b'\n')
+        .map(|line| line.trim_ascii())
+        .any(|line| line.starts_with(b"v ") || line.starts_with(b"v\t") || line.starts_with(b"f "))
+}
+
+fn from_obj(name: &str, bytes: Vec<u8>, given: &mut [Option<Vec2>]) -> Result<(), Failure> {
+    let document = ObjDocument::parse(bytes).map_err(|error| unparsed(name, &error))?;
+    let refuse = |why: String| Failure::new(Exit::Input, format!("{name}: {why}"));
+    let uvs = document.corner_uv().ok_or_else(|| {
+        refuse("has no UVs on every face".into()).help("name an OBJ whose `f` lines have texture indices")
+    })?;
+    let view = document.view();
+    if view.positions.len() != given.len() {
+        return Err(refuse(format!(
+            "has {} vertices, the mesh has {}: it is not the same mesh",
+            view.positions.len(),
+            given.len()
+        )));
+    }
+    for (&vertex, &uv) in view.corner_vertex.iter().zip(&uvs) {
+        let slot = &mut given[vertex as usize];
+        if slot.is_some_and(|known| known != uv) {
+            return Err(refuse(format!("vertex {} has several UVs: a seam runs through it", vertex + 1))
+                .help("a fixed boundary needs one position for each vertex"));
+        }
+        *slot = Some(uv);
+    }
+    Ok(())
+}
+
+fn from_list(name: &str, bytes: &[u8], given: &mut [Option<Vec2>]) -> Result<(), Failure> {
+    let text = String::from_utf8_lossy(bytes);
+    for (index, line) in text.lines().enumerate() {
+        let line = line.split('#').next().unwrap_or_default();
+        let refuse = |why: String| {
+            Err(Failure::new(Exit::Input, format!("{name}:{}: {why}", index + 1))
+                .help("write one `vertex u v` a line, vertices counted from 1"))
+        };
+        let fields: Vec<&str> =
+            line.split([' ', '\t', ',', '\r']).filter(|field| !field.is_empty()).collect();
+        let [vertex, u, v] = fields[..] else {
+            if fields.is_empty() {
+                continue;
+            }
+            return refuse(format!("expected three values, found {}", fields.len()));
+        };
+        let number = vertex.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+        let Some(slot) = number.and_then(|index| given.get_mut(index)) else {
+            return refuse(format!("`{vertex}` is no vertex of the mesh, which has {}", given.len()));
+        };
+        match (u.parse::<f64>(), v.parse::<f64>()) {
+            (Ok(u), Ok(v)) if u.is_finite() && v.is_finite() => *slot = Some(Vec2::new(u, v)),
+            _ => return refuse(format!("`{u} {v}` is no position")),
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,110 @@
+//! The words of the command line for the choices of the libraries.
+
+use clap::ValueEnum;
+use qoptimize::qcurv::VertexArea;
+use qoptimize::qembed::{Mixing, Weights};
+use qoptimize::qsimplify::{CurvatureMeasure, RemovalRule, RemovedSide};
+use qoptimize::qsolve::Backend;
+use qoptimize::{Method, MoveOrder};
+
+/// Mirrors a library enum with help texts for its values.
+macro_rules! choices {
+    ($($name:ident => $target:ident { $($(#[$doc:meta])* $variant:ident),+ $(,)? })+) => {$(
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+        pub(crate) enum $name { $($(#[$doc])* $variant),+ }
+
+        impl From<$name> for $target {
+            fn from(choice: $name) -> Self {
+                match choice { $($name::$variant => Self::$variant),+ }
+            }
+        }
+    )+};
+}
+
+choices! {
+    MethodChoice => Method {
+        /// The paper's stages: simplify, embed, bring the removed vertices back, remove overlaps
+        Paper,
+        /// Tutte 1963: every edge pulls alike
+        Uniform,
+        /// Floater 2003: mean value weights
+        MeanValue,
+        /// Eck et al. 1995: cotangent weights
+        Harmonic,
+        /// Lévy et al. 2002: least squares conformal, free boundary
+        Lscm,
+    }
+    RuleChoice => RemovalRule {
+        /// Remove only while the graph stays 3-connected
+        Guarded,
+        /// Remove, then join the neighbours in a ring
+        Ring,
+        /// Embed the full graph, keep the positions of the kept vertices only
+        Carrier,
+        /// Remove as the paper prints it, guarding nothing
+        Naive,
+        /// Remove every interior vertex
+        All,
+        /// Remove nothing (q has no effect)
+        None,
+    }
+    MeasureChoice => CurvatureMeasure {
+        /// |K| of Eq. 2, times total area / 4π: free of units
+        Normalized,
+        /// |K̄| of Eq. 1
+        Integrated,
+    }
+    AreaChoice => VertexArea {
+        /// The Voronoi cell of the vertex (Eqs. 3 and 4, corrected)
+        Voronoi,
+        /// The sum of the adjacent faces' areas, as the text under Eq. 2 says
+        FaceSum,
+    }
+    SideChoice => RemovedSide {
+        /// Low curvature goes, as the paper's text says
+        Low,
+        /// High curvature goes, as step 3 of section 2.1 is printed
+        High,
+    }
+    WeightsChoice => Weights {
+        /// Star angles with the printed quarter and half: always positive
+        Star4,
+        /// Star angles, plain cotangents: exact on flat meshes, may be negative
+        Star1,
+        /// Quad-corner angles as printed
+        Printed,
+    }
+    MixingChoice => Mixing {
+        /// Each family divided by its sum at the vertex: free of units
+        RowNormalized,
+        /// Added as printed: depends on the unit of length
+        Raw,
+    }
+    OrderChoice => MoveOrder {
+        /// Largest σ of Eq. 12 first
+        WorstFirst,
+        /// In the order in which they were found
+        FirstCome,
+    }
+    BackendChoice => Backend {
+        /// Direct where memory allows, iterative above
+        Auto,
+        /// Sparse factorization
+        Direct,
+        /// Krylov iterations
+        Iterative,
+    }
+}
+
+/// Where the boundary goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum BoundaryChoice {
+    /// The unit circle, by arc length
+    Circle,
+    /// The unit square
+    Square,
+    /// The best-fit plane; refused when the boundary folds there
+    Projection,
+    /// The positions in the file of --boundary-uv
+    Fixed,
+}

@@ -1,0 +1,61 @@
+//! Exit codes: one per class of failure, so that scripts need not read messages.
+
+use serde::Serialize;
+
+/// How a run ended. The number is the process's exit code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+#[repr(u8)]
+pub enum Exit {
+    /// Done; for `unwrap`, the map was written and is valid: no flips, no overlaps.
+    Done = 0,
+    /// The command line or the configuration file is wrong.
+    Usage = 2,
+    /// The input could not be read or parsed.
+    Input = 3,
+    /// The mesh is not supported.
+    Mesh = 4,
+    /// The computation failed.
+    Computation = 5,
+    /// The output could not be written.
+    Output = 6,
+    /// UVs were written, but flips or overlaps remain.
+    Invalid = 7,
+    /// Interrupted with ctrl-C.
+    Interrupted = 130,
+}
+
+impl Exit {
+    /// The process's exit code.
+    #[must_use]
+    pub fn code(self) -> u8 {
+        self as u8
+    }
+}
+
+/// The table of exit codes in `--help`.
+pub(crate) const TABLE: &str = "\
+Exit codes:
+    0  done; for unwrap: the map is written and valid (no flips, no overlaps)
+    2  wrong usage: an option, or the configuration file
+    3  the input could not be read or parsed
+    4  the mesh is not supported (not manifold, not a disk); the message says what it is
+    5  the computation failed
+    6  the output could not be written
+    7  UVs were written, but flips or overlaps remain (with measure --check: were found)
+  130  interrupted";
+
+#[cfg(test)]
+mod tests {
+    use super::{Exit, TABLE};
+
+    /// `--help` names every code there is.
+    #[test]
+    fn the_table_is_complete() {
+        use Exit::{Computation, Done, Input, Interrupted, Invalid, Mesh, Output, Usage};
+        for exit in [Done, Usage, Input, Mesh, Computation, Output, Invalid, Interrupted] {
+            let start = format!("{:>5}  ", exit.code());
+            assert!(TABLE.lines().any(|line| line.starts_with(&start)), "{exit:?} is missing");
+        }
+    }
+}

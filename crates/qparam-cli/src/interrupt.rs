@@ -1,0 +1,70 @@
+//! Ctrl-C: work that watches stops by itself, a file that is being written is finished or dropped first.
+
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering::SeqCst};
+
+/// What a signal has to respect right now.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub(crate) enum Phase {
+    /// Nothing that has to be cleaned up, and nobody who looks: the process may end at once.
+    Free = 0,
+    /// An observer looks at the request; a second signal ends the process.
+    Watched = 1,
+    /// A temporary file exists: the writer looks at the request before and after, and cleans up.
+    Writing = 2,
+}
+
+/// The request to stop, shared between the signal handler and the work.
+#[derive(Debug, Default)]
+pub struct Interrupt {
+    requested: AtomicBool,
+    phase: AtomicU8,
+}
+
+impl Interrupt {
+    /// No request yet.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self { requested: AtomicBool::new(false), phase: AtomicU8::new(Phase::Free as u8) }
+    }
+
+    /// Asks to stop. `true` says that nothing needs to be waited for: the process may exit now.
+    pub fn request(&self) -> bool {
+        let again = self.requested.swap(true, SeqCst);
+        let phase = self.phase.load(SeqCst);
+        phase == Phase::Free as u8 || (again && phase == Phase::Watched as u8)
+    }
+
+    /// Whether somebody asked to stop.
+    pub fn is_requested(&self) -> bool {
+        self.requested.load(SeqCst)
+    }
+
+    /// Runs `work` in `phase`.
+    pub(crate) fn during<T>(&self, phase: Phase, work: impl FnOnce() -> T) -> T {
+        let before = self.phase.swap(phase as u8, SeqCst);
+        let result = work();
+        self.phase.store(before, SeqCst);
+        result
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Interrupt, Phase};
+
+    #[test]
+    fn the_process_may_end_unless_somebody_looks_after_the_request() {
+        assert!(Interrupt::new().request());
+        let interrupt = Interrupt::new();
+        interrupt.during(Phase::Watched, || {
+            assert!(!interrupt.request(), "the observer stops the work");
+            assert!(interrupt.request(), "impatient: a second ctrl-C");
+        });
+        let interrupt = Interrupt::new();
+        interrupt.during(Phase::Writing, || {
+            assert!(!interrupt.request() && !interrupt.request(), "the temporary file has to go first");
+        });
+        assert!(interrupt.is_requested());
+    }
+}

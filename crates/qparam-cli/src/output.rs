@@ -1,0 +1,228 @@
+//! Files that are replaced as a whole or not at all.
+//!
+//! A new file is written beside its target, flushed to the disk, and renamed over it.
+
+use std::fmt;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::interrupt::{Interrupt, Phase};
+
+const BUFFER: usize = 1 << 18;
+
+/// Where output goes; shown as messages call it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Target {
+    Stdout,
+    File(PathBuf),
+}
+
+impl fmt::Display for Target {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Stdout => f.write_str("<stdout>"),
+            Self::File(path) => path.display().fmt(f),
+        }
+    }
+}
+
+impl Target {
+    pub(crate) fn new(path: &Path) -> Self {
+        if path.as_os_str() == "-" { Self::Stdout } else { Self::File(path.to_owned()) }
+    }
+
+    /// Fails early when the target could not be written anyway: after hours of work would be late.
+    pub(crate) fn probe(&self) -> Result<(), Failure> {
+        let Self::File(path) = self else { return Ok(()) };
+        let refuse = |why: &str, help: &str| {
+            Err(Failure::new(Exit::Output, format!("{}: {why}", path.display())).help(help.to_owned()))
+        };
+        match fs::metadata(path) {
+            Ok(found) if found.is_dir() => {
+                return refuse("is a folder, not a file", "name a file in it with -o");
+            }
+            Ok(found) if found.is_file() && found.permissions().readonly() => {
+                return refuse("may not be written", "name another file with -o, or change its permissions");
+            }
+            Ok(found) if !found.is_file() => return Ok(()),
+            _ => {}
+        }
+        let folder = folder_of(&real_target(path).map_err(|error| cannot(path, &error))?);
+        // An unnamed file: nothing is left behind, whatever happens.
+        tempfile::tempfile_in(&folder).map(drop).map_err(|error| {
+            cannot(path, &error).help(format!(
+                "the folder {} must exist and be writable; name another place with -o",
+                folder.display()
+            ))
+        })
+    }
+
+    /// Hands `content` a writer; the target changes only when everything went well.
+    pub(crate) fn write(
+        &self,
+        stdout: &mut dyn Write,
+        interrupt: &Interrupt,
+        content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        match self {
+            Self::Stdout => {
+                let mut writer = BufWriter::with_capacity(BUFFER, stdout);
+                let result = content(&mut writer).and_then(|()| writer.flush());
+                // Whatever is left in the buffer has nowhere to go, and must not be tried again.
+                let _ = writer.into_parts();
+                result.map_err(|error| {
+                    Failure::new(Exit::Output, "standard output could not be written").cause(&error)
+                })
+            }
+            Self::File(path) => {
+                match interrupt.during(Phase::Writing, || replace(path, interrupt, content)) {
+                    Ok(true) => Ok(()),
+                    Ok(false) => Err(Failure::interrupted()),
+                    Err(error) => Err(cannot(path, &error)),
+                }
+            }
+        }
+    }
+}
+
+fn cannot(path: &Path, error: &io::Error) -> Failure {
+    Failure::new(Exit::Output, format!("{} could not be written", path.display())).cause(error)
+}
+
+/// `false`: interrupted, and nothing has changed.
+fn replace(
+    path: &Path,
+    interrupt: &Interrupt,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<bool> {
+    let existing = fs::metadata(path).ok();
+    if existing.as_ref().is_some_and(|found| !found.is_file()) {
+        // A device or a pipe cannot be renamed over.
+        let mut writer = BufWriter::with_capacity(BUFFER, File::options().write(true).open(path)?);
+        content(&mut writer)?;
+        return writer.flush().map(|()| true);
+    }
+    let target = real_target(path)?;
+    let folder = folder_of(&target);
+    let mut temporary = tempfile::Builder::new();
+    temporary.prefix(".qparam-").suffix(".part");
+    #[cfg(unix)]
+    if existing.is_none() {
+        // What any new file gets; the umask takes its part from it.
+        temporary.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    }
+    let file = temporary.tempfile_in(&folder)?;
+    let mut writer = BufWriter::with_capacity(BUFFER, file);
+    content(&mut writer)?;
+    let file = writer.into_inner().map_err(io::IntoInnerError::into_error)?;
+    if let Some(existing) = existing {
+        // Another owner's permissions may be refused; the content matters more.
+        let _ = file.as_file().set_permissions(existing.permissions());
+    }
+    file.as_file().sync_all()?;
+    if interrupt.is_requested() {
+        return Ok(false);
+    }
+    file.persist(&target).map_err(|error| error.error)?;
+    Ok(true)
+}
+
+/// Behind a symbolic link, the file itself is replaced, and the link stays; also where it dangles.
+fn real_target(path: &Path) -> io::Result<PathBuf> {
+    const LINKS: usize = 40;
+    let mut target = path.to_owned();
+    for _ in 0..LINKS {
+        match fs::symlink_metadata(&target) {
+            Ok(found) if found.is_symlink() => target = folder_of(&target).join(fs::read_link(&target)?),
+            _ => return Ok(target),
+        }
+    }
+    Err(io::Error::other("too many symbolic links"))
+}
+
+fn folder_of(path: &Path) -> PathBuf {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
+        _ => PathBuf::from("."),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::io;
+    use std::path::Path;
+
+    use super::{Interrupt, Target};
+    use crate::exit::Exit;
+
+    fn write(path: &Path, text: &str) -> Result<(), super::Failure> {
+        Target::new(path).write(&mut io::sink(), &Interrupt::new(), |w| w.write_all(text.as_bytes()))
+    }
+
+    fn names(folder: &Path) -> Vec<String> {
+        let mut names: Vec<_> =
+            fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    /// The old content stays until the new one is complete, and no other file is left.
+    #[test]
+    fn a_failure_leaves_everything_as_it_was() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.obj");
+        fs::write(&path, "old").unwrap();
+        let failure = Target::new(&path)
+            .write(&mut io::sink(), &Interrupt::new(), |w| {
+                w.write_all(&[b'x'; 1 << 20])?;
+                Err(io::Error::other("disk full"))
+            })
+            .unwrap_err();
+        assert_eq!(failure.class, Exit::Output);
+        assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+        assert_eq!(names(folder.path()), ["a.obj"]);
+    }
+
+    #[test]
+    fn an_interrupted_write_leaves_everything_as_it_was() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.obj");
+        let interrupt = Interrupt::new();
+        let result = Target::new(&path).write(&mut io::sink(), &interrupt, |w| {
+            interrupt.request();
+            w.write_all(b"new")
+        });
+        assert_eq!(result.unwrap_err().class, Exit::Interrupted);
+        assert!(names(folder.path()).is_empty());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn permissions_and_links_survive() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let folder = tempfile::tempdir().unwrap();
+        let (file, link) = (folder.path().join("a.obj"), folder.path().join("link.obj"));
+        fs::write(&file, "old").unwrap();
+        fs::set_permissions(&file, fs::Permissions::from_mode(0o640)).unwrap();
+        symlink("a.obj", &link).unwrap();
+        write(&link, "new").unwrap();
+        assert_eq!(fs::read_to_string(&file).unwrap(), "new");
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
+    }
+
+    #[test]
+    fn impossible_targets_are_found_before_the_work() {
+        let folder = tempfile::tempdir().unwrap();
+        for path in [folder.path().to_owned(), folder.path().join("missing").join("a.obj")] {
+            assert_eq!(Target::new(&path).probe().unwrap_err().class, Exit::Output);
+            assert!(write(&path, "x").is_err());
+        }
+        assert!(Target::new(&folder.path().join("a.obj")).probe().is_ok());
+        assert!(names(folder.path()).is_empty(), "probing leaves nothing");
+    }
+}

@@ -1,0 +1,242 @@
+//! Reports: the same figures for machines (JSON) and for people (a table).
+
+use qoptimize::{Distortion, RunRecord};
+use serde::Serialize;
+
+use crate::progress::StageTime;
+use crate::table::{Table, counted, short};
+
+/// Changes when a field of the JSON reports is renamed, removed, or means something else.
+pub const SCHEMA_VERSION: u32 = 1;
+
+/// What every JSON report starts with.
+#[derive(Debug, Serialize)]
+pub(crate) struct Head {
+    schema_version: u32,
+    command: &'static str,
+    version: &'static str,
+}
+
+impl Head {
+    pub(crate) fn new(command: &'static str) -> Self {
+        Self { schema_version: SCHEMA_VERSION, command, version: env!("CARGO_PKG_VERSION") }
+    }
+}
+
+/// What went in.
+#[derive(Debug, Serialize)]
+pub(crate) struct InputReport {
+    pub(crate) file: String,
+    pub(crate) vertices: usize,
+    pub(crate) unused_vertices: usize,
+    pub(crate) edges: usize,
+    pub(crate) boundary_edges: usize,
+    pub(crate) faces: usize,
+    pub(crate) triangles: usize,
+    pub(crate) quads: usize,
+    pub(crate) polygons: usize,
+}
+
+/// Seconds of wall time.
+#[derive(Debug, Default, Serialize)]
+pub(crate) struct Timings {
+    pub(crate) read: f64,
+    pub(crate) build: f64,
+    pub(crate) parameterize: f64,
+    pub(crate) stages: Vec<StageTime>,
+    pub(crate) write: f64,
+    pub(crate) total: f64,
+}
+
+/// The report of `unwrap`.
+#[derive(Debug, Serialize)]
+pub(crate) struct UnwrapReport<'a> {
+    #[serde(flatten)]
+    pub(crate) head: Head,
+    pub(crate) input: InputReport,
+    pub(crate) output: String,
+    pub(crate) valid: bool,
+    pub(crate) distortion: &'a Distortion,
+    pub(crate) options: serde_json::Value,
+    pub(crate) record: &'a RunRecord,
+    pub(crate) timings_seconds: Timings,
+    pub(crate) peak_memory_bytes: Option<u64>,
+}
+
+/// No flips and no overlaps: what exit code 0 of `unwrap` promises.
+///
+/// On one island without flips, a boundary that does not cross itself leaves no overlap anywhere. Whether
+/// several islands lie on each other is not seen here.
+pub(crate) fn is_valid(distortion: &Distortion) -> bool {
+    distortion.flipped_corners == 0 && distortion.folded_faces == 0 && distortion.boundary_crossings == 0
+}
+
+/// What is wrong with a map, in words.
+pub(crate) fn verdict(distortion: &Distortion) -> String {
+    let mut faults = Vec::new();
+    let mut fault = |count: usize, noun: &str| {
+        if count > 0 {
+            faults.push(counted(count, noun));
+        }
+    };
+    fault(distortion.flipped_corners, "flipped corner");
+    fault(distortion.folded_faces, "folded face");
+    fault(distortion.boundary_crossings, "boundary crossing");
+    if faults.is_empty() { "valid".to_owned() } else { faults.join(", ") }
+}
+
+/// The table of `unwrap`.
+pub(crate) fn unwrap_text(report: &UnwrapReport<'_>, method: &str, color: bool) -> String {
+    let input = &report.input;
+    let faces = [(input.triangles, "triangle"), (input.quads, "quad"), (input.polygons, "polygon")]
+        .into_iter()
+        .filter(|&(count, _)| count > 0)
+        .map(|(count, noun)| counted(count, noun))
+        .collect::<Vec<_>>()
+        .join(", ");
+    let mut text = format!("{}: {}, {faces}\n", input.file, counted(input.vertices, "vertex"));
+    text += &format!("{method}\n");
+    for line in record_lines(report.record) {
+        text += &format!("  {line}\n");
+    }
+    text += "\n";
+    text += &distortion_table(&[(String::new(), report.distortion)]).render(color);
+    let times = &report.timings_seconds;
+    let stages: Vec<_> =
+        times.stages.iter().map(|time| format!("{} {:.2}", time.stage, time.seconds)).collect();
+    text += &format!(
+        "\ntime {:.2} s: read {:.2}, build {:.2}, parameterize {:.2} ({}), write {:.2}",
+        times.total,
+        times.read,
+        times.build,
+        times.parameterize,
+        stages.join(", "),
+        times.write
+    );
+    if let Some(bytes) = report.peak_memory_bytes {
+        text += &format!("; memory {} MB", bytes.div_ceil(1 << 20));
+    }
+    text + "\n"
+}
+
+/// What ran, in sentences.
+fn record_lines(record: &RunRecord) -> Vec<String> {
+    let mut lines = Vec::new();
+    if record.removal_candidates > 0 || record.removed_vertices > 0 {
+        lines.push(format!(
+            "simplification: {} of {} interior vertices removed ({} candidates)",
+            record.removed_vertices, record.interior_vertices, record.removal_candidates
+        ));
+    }
+    if record.cut_off_vertices > 0 {
+        lines.push(format!(
+            "{} cut off from the boundary, placed by the local step",
+            counted(record.cut_off_vertices, "vertex")
+        ));
+    }
+    if record.negative_weights > 0 {
+        lines.push(format!("{} met", counted(record.negative_weights, "negative weight")));
+    }
+    for solve in &record.solves {
+        lines.push(format!(
+            "{} system: {}, {:?}, relative residual {:.1e}",
+            solve.stage,
+            counted(solve.record.unknowns, "unknown"),
+            solve.record.method,
+            solve.record.relative_residual
+        ));
+    }
+    if let Some(overlaps) = &record.overlaps {
+        let mut line = format!(
+            "overlap removal: {} before, {} after {}",
+            counted(overlaps.before, "flipped corner"),
+            overlaps.after,
+            counted(overlaps.moves, "move")
+        );
+        if overlaps.hit_limit {
+            line += " (the bound on the moves ended it)";
+        }
+        if overlaps.stuck_on_boundary > 0 {
+            line += &format!(", {} stuck on the boundary", overlaps.stuck_on_boundary);
+        }
+        lines.push(line);
+    }
+    lines
+}
+
+/// Every measure; one column a map.
+pub(crate) fn distortion_table(maps: &[(String, &Distortion)]) -> Table {
+    let mut table = Table::new(maps.iter().map(|(name, _)| name.clone()).collect());
+    let mut section = |title: &str, rows: &[(&str, &dyn Fn(&Distortion) -> String)]| {
+        table.section(title);
+        for (label, value) in rows {
+            table.row(label, maps.iter().map(|(_, distortion)| value(distortion)).collect());
+        }
+    };
+    section(
+        "map",
+        &[
+            ("faces", &|d| d.faces.to_string()),
+            ("islands", &|d| d.islands.to_string()),
+            ("mirrored islands", &|d| d.mirrored_islands.to_string()),
+            ("flipped corners", &|d| d.flipped_corners.to_string()),
+            ("flipped faces", &|d| d.flipped_faces.to_string()),
+            ("folded faces", &|d| d.folded_faces.to_string()),
+            ("boundary crossings", &|d| d.boundary_crossings.to_string()),
+        ],
+    );
+    section(
+        "angles",
+        &[
+            ("angle error (Eq. 13)", &|d| short(d.angle_error)),
+            ("mean", &|d| short(d.angle_error_mean)),
+            ("root mean square, degrees", &|d| short(d.angle_rms_degrees)),
+            ("MIPS (1 where conformal)", &|d| short(d.mips)),
+            ("s1/s2 mean", &|d| short(d.singular_ratio_mean)),
+            ("s1/s2 99th percentile", &|d| short(d.singular_ratio_p99)),
+            ("s1/s2 largest", &|d| short(d.singular_ratio_max)),
+        ],
+    );
+    section(
+        "areas",
+        &[
+            ("area error (Eq. 14)", &|d| short(d.area_error)),
+            ("mean", &|d| short(d.area_error_mean)),
+            ("sum at the best scale", &|d| short(d.area_error_best_scale)),
+        ],
+    );
+    section(
+        "both",
+        &[
+            ("symmetric Dirichlet (1 for an isometry)", &|d| short(d.symmetric_dirichlet)),
+            ("largest", &|d| short(d.symmetric_dirichlet_max)),
+            ("stretch L2", &|d| short(d.stretch_l2)),
+            ("stretch L∞", &|d| short(d.stretch_linf)),
+        ],
+    );
+    section(
+        "benchmark of Shay, Solomon and Stein",
+        &[
+            ("max area distortion", &|d| short(d.benchmark.max_area_distortion)),
+            ("average area discrepancy", &|d| short(d.benchmark.average_area_discrepancy)),
+            ("max angle distortion", &|d| short(d.benchmark.max_angle_distortion)),
+            ("average angle discrepancy", &|d| short(d.benchmark.average_angle_discrepancy)),
+            ("min singular value", &|d| short(d.benchmark.min_singular_value)),
+            ("max singular value", &|d| short(d.benchmark.max_singular_value)),
+            ("proportion flipped triangles", &|d| short(d.benchmark.proportion_flipped_triangles)),
+            ("resolution", &|d| short(d.benchmark.resolution)),
+            ("symmetric Dirichlet energy (2 for an isometry)", &|d| {
+                short(d.benchmark.symmetric_dirichlet_energy)
+            }),
+        ],
+    );
+    table
+}
+
+/// The largest memory that this process has held so far, where the system tells.
+pub(crate) fn peak_memory_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kilobytes << 10)
+}

@@ -1,0 +1,83 @@
+//! Refusals of the libraries in the numbers of the file: counted from 1, with lines.
+
+use qoptimize::qmesh::BuildError;
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::Input;
+
+/// Why the polygons of `input` are no mesh.
+pub(crate) fn refused(error: &BuildError, input: &Input) -> Failure {
+    let face = |face: u32| format!("face {} ({})", face + 1, input.at_face(face));
+    let vertex = |vertex: u32| format!("vertex {} ({})", vertex + 1, input.at_vertex(vertex));
+    let fail = |class, text: String, help: &str| {
+        Failure::new(class, format!("{}: {text}", input.name)).help(help.to_owned())
+    };
+    match error {
+        BuildError::NoFaces => fail(
+            Exit::Input,
+            "there are no faces".into(),
+            "a mesh needs lines `f a b c d`; points and lines alone have no surface",
+        ),
+        BuildError::TooFewCorners { face: f, corners } => fail(
+            Exit::Input,
+            format!("{} has {corners} corners, but needs at least three", face(*f)),
+            "delete that line, or repair the export",
+        ),
+        BuildError::IndexOutOfRange { face: f, vertex, count } => fail(
+            Exit::Input,
+            format!("{} names vertex {}, but there are only {count}", face(*f), u64::from(*vertex) + 1),
+            "the file is cut off, or its indices do not belong to it",
+        ),
+        BuildError::NonFiniteCoordinate { vertex: v } => fail(
+            Exit::Input,
+            format!("{} has a coordinate that is not finite, or beyond 1e60", vertex(*v)),
+            "repair the coordinates of that vertex",
+        ),
+        BuildError::RepeatedVertex { face: f, vertex: v } => fail(
+            Exit::Mesh,
+            format!("{} visits {} more than once", face(*f), vertex(*v)),
+            "dissolve the degenerate face in a modelling program (merge by distance does)",
+        ),
+        BuildError::NonManifoldEdge { vertices: [a, b], faces } => {
+            const SHOWN: usize = 6;
+            let mut list: Vec<_> = faces.iter().take(SHOWN).map(|&f| face(f)).collect();
+            if faces.len() > SHOWN {
+                list.push("…".into());
+            }
+            fail(
+                Exit::Mesh,
+                format!(
+                    "the edge between {} and {} is not manifold: {} faces share it",
+                    vertex(*a),
+                    vertex(*b),
+                    faces.len()
+                ),
+                "split the mesh there: at most two faces may share an edge",
+            )
+            .note(format!("they are {}", list.join(", ")))
+        }
+        BuildError::InconsistentOrientation { vertices: [a, b], faces: [f, g] } => fail(
+            Exit::Mesh,
+            format!(
+                "{} and {} run the same way along the edge from {} to {}: one of them is turned over",
+                face(*f),
+                face(*g),
+                vertex(*a),
+                vertex(*b)
+            ),
+            "make the normals consistent; a Möbius strip has to be cut first",
+        ),
+        BuildError::NonManifoldVertex { vertex: v, faces: [f, g] } => fail(
+            Exit::Mesh,
+            format!(
+                "{} is not manifold: {} and {} lie in separate fans that touch only there",
+                vertex(*v),
+                face(*f),
+                face(*g)
+            ),
+            "give each fan a vertex of its own",
+        ),
+        other => Failure::new(Exit::Mesh, format!("{}: the faces are no mesh", input.name)).cause(other),
+    }
+}

@@ -1,0 +1,283 @@
+//! `qparam unwrap`: read, check, compute, write, report.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::ValueEnum;
+use qoptimize::qembed::BoundaryShape;
+use qoptimize::qmesh::QuadMesh;
+use qoptimize::qmesh::obj::write_obj;
+use qoptimize::qsimplify::{SimplifyError, simplify};
+use qoptimize::{Options, Parameterization, parameterize};
+
+use crate::args::UnwrapArgs;
+use crate::boundary;
+use crate::choices::{MethodChoice, RuleChoice};
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::{Input, require_disk};
+use crate::interrupt::Phase;
+use crate::json_text;
+use crate::output::Target;
+use crate::progress::{StageTime, Watch};
+use crate::report::{
+    Head, InputReport, Timings, UnwrapReport, is_valid, peak_memory_bytes, unwrap_text, verdict,
+};
+use crate::streams::Streams;
+
+/// What a run has gathered before it computes.
+struct Job<'a> {
+    arguments: &'a UnwrapArgs,
+    options: Options,
+    input: Input,
+    mesh: QuadMesh,
+    target: Target,
+}
+
+pub(crate) fn run(arguments: &UnwrapArgs, typed: &[String], io: &mut Streams<'_>) -> Result<Exit, Failure> {
+    let start = Instant::now();
+    let mut options = arguments.options()?;
+    let target = Target::new(&output_path(arguments));
+    let simplified = arguments.simplified.as_deref().map(Target::new);
+    refuse_clashes(arguments, &target, simplified.as_ref())?;
+    for target in [Some(&target), simplified.as_ref()].into_iter().flatten() {
+        target.probe()?;
+    }
+    if !arguments.quiet {
+        for note in notes(arguments, typed) {
+            io.say_err(&format!("note: {note}\n"));
+        }
+    }
+
+    let mut timings = Timings::default();
+    let input = timed(&mut timings.read, || Input::read(&arguments.input, io.stdin))?;
+    let mesh = timed(&mut timings.build, || {
+        let mesh = input.mesh()?;
+        require_disk(&mesh, &input)?;
+        Ok(mesh)
+    })?;
+    if let (BoundaryShape::Fixed(positions), Some(path)) = (&mut options.boundary, &arguments.boundary_uv) {
+        *positions = boundary::read(path, io.stdin, &mesh, &input)?;
+    }
+    let job = Job { arguments, options, input, mesh, target };
+    let (result, stages) = timed(&mut timings.parameterize, || job.compute(io))?;
+    timings.stages = stages;
+    timed(&mut timings.write, || {
+        if let Some(target) = &simplified {
+            job.write_simplified(target, io)?;
+        }
+        job.target.write(io.stdout, io.interrupt, |mut writer| {
+            job.input.document.write_with_uv(&mut writer, &result.uv)
+        })
+    })?;
+    timings.total = start.elapsed().as_secs_f64();
+    job.report(&result, timings, io)
+}
+
+fn timed<T>(seconds: &mut f64, work: impl FnOnce() -> T) -> T {
+    let clock = Instant::now();
+    let result = work();
+    *seconds = clock.elapsed().as_secs_f64();
+    result
+}
+
+/// `IN_uv.obj` beside the input, unless the caller says otherwise.
+fn output_path(arguments: &UnwrapArgs) -> PathBuf {
+    let input = &arguments.input;
+    match &arguments.output {
+        Some(path) => path.clone(),
+        None if input.as_os_str() == "-" => input.clone(),
+        None => {
+            let mut name = input.file_stem().unwrap_or_default().to_owned();
+            name.push("_uv");
+            if let Some(extension) = input.extension() {
+                name.push(".");
+                name.push(extension);
+            }
+            input.with_file_name(name)
+        }
+    }
+}
+
+/// Two outputs, or two inputs, in one place.
+fn refuse_clashes(
+    arguments: &UnwrapArgs,
+    target: &Target,
+    simplified: Option<&Target>,
+) -> Result<(), Failure> {
+    let refuse = |what: &str, help: &str| Err(Failure::new(Exit::Usage, what).help(help));
+    let dash = |path: Option<&PathBuf>| path.is_some_and(|path| path.as_os_str() == "-");
+    if simplified == Some(target) {
+        return refuse(
+            "the UVs and the simplified mesh would go to the same place",
+            "name two different files with -o and --simplified",
+        );
+    }
+    if dash(Some(&arguments.input)) && dash(arguments.boundary_uv.as_ref()) {
+        return refuse(
+            "standard input cannot be read twice",
+            "name a file for the mesh or for --boundary-uv",
+        );
+    }
+    if arguments.json && simplified == Some(&Target::Stdout) {
+        return refuse(
+            "the simplified mesh and the JSON report would both go to standard output",
+            "name a file with --simplified",
+        );
+    }
+    Ok(())
+}
+
+/// Options that were typed though nothing reads them.
+fn notes(arguments: &UnwrapArgs, typed: &[String]) -> Vec<String> {
+    const PAPER_ONLY: &[&str] = &[
+        "q",
+        "rule",
+        "remove-fraction",
+        "remove-below",
+        "curvature",
+        "area",
+        "side",
+        "exponent",
+        "weights",
+        "mixing",
+    ];
+    const REMOVAL: &[&str] = &["remove-fraction", "remove-below", "curvature", "area", "side"];
+    let method = arguments.method;
+    let unread = |name: &str| {
+        if method != MethodChoice::Paper && PAPER_ONLY.contains(&name) {
+            return Some("the method is not `paper`");
+        }
+        if method == MethodChoice::Lscm && name == "boundary" {
+            return Some("the boundary of lscm is free");
+        }
+        if method == MethodChoice::Paper && arguments.rule == RuleChoice::None {
+            return (REMOVAL.contains(&name) || ["q", "weights", "mixing"].contains(&name))
+                .then_some("--rule none removes no vertex");
+        }
+        let overlaps = ["lambda1", "lambda2", "order", "max-moves"];
+        (arguments.no_overlap_removal && overlaps.contains(&name)).then_some("overlaps are left as they are")
+    };
+    typed.iter().filter_map(|name| Some(format!("--{name} has no effect: {}", unread(name)?))).collect()
+}
+
+impl Job<'_> {
+    fn compute(&self, io: &Streams<'_>) -> Result<(Parameterization, Vec<StageTime>), Failure> {
+        let threads = self.arguments.threads;
+        let watch = Watch::new(io.interrupt, io.stderr_is_terminal && !self.arguments.quiet);
+        let work = || parameterize(&self.mesh, &self.options, &watch);
+        let result = io.interrupt.during(Phase::Watched, || match threads {
+            0 => Ok(work()),
+            _ => rayon::ThreadPoolBuilder::new().num_threads(threads).build().map(|pool| pool.install(work)),
+        });
+        let stages = watch.finish();
+        let result = result.map_err(|error| {
+            Failure::new(Exit::Computation, format!("{threads} threads could not be started"))
+                .cause(&error)
+                .help("ask for fewer with --threads")
+        })?;
+        if io.interrupt.is_requested() {
+            return Err(Failure::interrupted());
+        }
+        let result = result.map_err(|error| {
+            Failure::new(Exit::Computation, format!("{}: no map was found", self.input.name)).cause(&error)
+        })?;
+        Ok((result, stages))
+    }
+
+    fn write_simplified(&self, target: &Target, io: &mut Streams<'_>) -> Result<(), Failure> {
+        let watch = Watch::new(io.interrupt, false);
+        let simplified =
+            io.interrupt.during(Phase::Watched, || simplify(&self.mesh, &self.options.simplify, &watch));
+        let simplified = simplified.map_err(|error| match error {
+            SimplifyError::Cancelled => Failure::interrupted(),
+            other => Failure::new(Exit::Computation, "the mesh could not be simplified").cause(&other),
+        })?;
+        let polygons = simplified.polygons(&self.mesh);
+        target.write(io.stdout, io.interrupt, |mut writer| write_obj(&mut writer, polygons.view(), None))
+    }
+
+    fn report(
+        &self,
+        result: &Parameterization,
+        timings: Timings,
+        io: &mut Streams<'_>,
+    ) -> Result<Exit, Failure> {
+        let arguments = self.arguments;
+        let valid = is_valid(&result.distortion);
+        let report = UnwrapReport {
+            head: Head::new("unwrap"),
+            input: self.input_report(),
+            output: self.target.to_string(),
+            valid,
+            distortion: &result.distortion,
+            options: options_json(&self.options, arguments.boundary_uv.as_deref()),
+            record: &result.record,
+            timings_seconds: timings,
+            peak_memory_bytes: peak_memory_bytes(),
+        };
+        // The mesh has standard output for itself when it goes there.
+        let aside = self.target == Target::Stdout;
+        if arguments.json {
+            io.report(aside, &json_text(&report))?;
+        } else if !arguments.quiet {
+            let color = if aside { io.stderr_color } else { io.stdout_color };
+            let text = unwrap_text(&report, &method_line(arguments), color);
+            io.report(aside, &format!("{text}UVs written to {}\n", report.output))?;
+        }
+        if valid {
+            return Ok(Exit::Done);
+        }
+        if !(arguments.json && aside) {
+            io.say_err(&format!(
+                "warning: the UVs are written, but they are not valid: {}\n",
+                verdict(&result.distortion)
+            ));
+        }
+        Ok(Exit::Invalid)
+    }
+
+    fn input_report(&self) -> InputReport {
+        let mesh = &self.mesh;
+        let counts = mesh.face_counts();
+        InputReport {
+            file: self.input.name.clone(),
+            vertices: mesh.source_vertex_count(),
+            unused_vertices: mesh.source_vertex_count() - mesh.vertex_count(),
+            edges: mesh.edge_count(),
+            boundary_edges: mesh.halfedge_count() - mesh.corner_count(),
+            faces: mesh.face_count(),
+            triangles: counts.triangles,
+            quads: counts.quads,
+            polygons: counts.polygons,
+        }
+    }
+}
+
+/// What was asked for, in one line.
+fn method_line(arguments: &UnwrapArgs) -> String {
+    fn name(choice: &impl ValueEnum) -> String {
+        choice.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+    }
+    let method = name(&arguments.method);
+    match arguments.method {
+        MethodChoice::Lscm => format!("method {method}, free boundary"),
+        MethodChoice::Paper => format!(
+            "method {method}, q {}, rule {}, weights {}, boundary {}",
+            arguments.q,
+            name(&arguments.rule),
+            name(&arguments.weights),
+            name(&arguments.boundary)
+        ),
+        _ => format!("method {method}, boundary {}", name(&arguments.boundary)),
+    }
+}
+
+/// The options as the library takes them; of a fixed boundary only where it came from and its size.
+fn options_json(options: &Options, boundary_file: Option<&Path>) -> serde_json::Value {
+    let mut value = serde_json::to_value(options).unwrap_or_default();
+    if let (BoundaryShape::Fixed(positions), Some(file)) = (&options.boundary, boundary_file) {
+        value["boundary"] = serde_json::json!({ "fixed": { "file": file.display().to_string(), "vertices": positions.len() } });
+    }
+    value
+}

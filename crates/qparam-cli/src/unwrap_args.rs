@@ -1,0 +1,305 @@
+//! The options of `qparam unwrap`, and the library options that they stand for.
+
+use std::path::PathBuf;
+
+use clap::{ArgAction, Args};
+use qoptimize::qembed::BoundaryShape;
+use qoptimize::qsimplify::{SimplifyOptions, Threshold};
+use qoptimize::qsolve::SolveOptions;
+use qoptimize::{Options, OverlapOptions};
+
+use crate::choices::{
+    AreaChoice, BackendChoice, BoundaryChoice, MeasureChoice, MethodChoice, MixingChoice, OrderChoice,
+    RuleChoice, SideChoice, WeightsChoice,
+};
+use crate::exit::{self, Exit};
+use crate::failure::Failure;
+
+/// Compute UVs and write them into a copy of the file.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = exit::TABLE, after_long_help = AFTER_LONG_HELP)]
+pub(crate) struct UnwrapArgs {
+    /// The quad mesh, an OBJ file; `-` is standard input
+    #[arg(value_name = "IN.obj")]
+    pub(crate) input: PathBuf,
+    /// Where the mesh with its UVs goes; `-` is standard output (the report then goes to standard error)
+    ///
+    /// Default: `IN_uv.obj` beside the input; standard output when the input is standard input. May be the
+    /// input itself. A file that exists is replaced as a whole, or not at all.
+    #[arg(short, long, value_name = "OUT.obj", help_heading = "Files")]
+    pub(crate) output: Option<PathBuf>,
+    /// Also write the simplified polygon mesh of section 2.1, for looking at it
+    #[arg(long, value_name = "FILE.obj", help_heading = "Files")]
+    pub(crate) simplified: Option<PathBuf>,
+    /// Defaults for these options (else qparam.toml here, else qparam/config.toml among the user's settings)
+    #[arg(long, value_name = "FILE.toml", help_heading = "Files", conflicts_with = "no_config")]
+    pub(crate) config: Option<PathBuf>,
+    /// Read no configuration file
+    #[arg(long, help_heading = "Files")]
+    pub(crate) no_config: bool,
+
+    /// Which way to a map
+    #[arg(long, value_enum, default_value = "paper", help_heading = "Method")]
+    pub(crate) method: MethodChoice,
+    /// 1 is angle-true (conformal), 0 is area-true (authalic) (Eq. 10)
+    #[arg(long, value_name = "0..1", default_value = "0.5", value_parser = unit, help_heading = "Method")]
+    pub(crate) q: f64,
+    /// Where the boundary goes (not for lscm, whose boundary is free)
+    #[arg(long, value_enum, default_value = "circle", help_heading = "Method")]
+    pub(crate) boundary: BoundaryChoice,
+    /// Positions for --boundary fixed: an OBJ with UVs on the same vertices, or lines `vertex u v` (from 1)
+    #[arg(long, value_name = "FILE", help_heading = "Method")]
+    pub(crate) boundary_uv: Option<PathBuf>,
+    /// Leave the UVs in the units of the method instead of fitting them to the unit square
+    #[arg(long, help_heading = "Method")]
+    pub(crate) no_normalize: bool,
+
+    /// What keeps the simplified mesh fit for the global embedding
+    #[arg(long, value_enum, default_value = "guarded", help_heading = "Simplification (section 2.1)")]
+    pub(crate) rule: RuleChoice,
+    /// This fraction of the interior vertices are candidates for removal
+    #[arg(long, value_name = "0..1", default_value = "0.5", value_parser = unit,
+        help_heading = "Simplification (section 2.1)")]
+    pub(crate) remove_fraction: f64,
+    /// Instead of a fraction: vertices whose curvature lies below this value are candidates
+    #[arg(long, value_name = "X", value_parser = not_negative, conflicts_with = "remove_fraction",
+        help_heading = "Simplification (section 2.1)")]
+    pub(crate) remove_below: Option<f64>,
+    /// Which curvature decides
+    #[arg(long, value_enum, default_value = "normalized", help_heading = "Simplification (section 2.1)")]
+    pub(crate) curvature: MeasureChoice,
+    /// Which area the curvature of a vertex is divided by (Eq. 2)
+    #[arg(long, value_enum, default_value = "voronoi", help_heading = "Simplification (section 2.1)")]
+    pub(crate) area: AreaChoice,
+    /// Which side of the threshold is removed
+    #[arg(long, value_enum, default_value = "low", help_heading = "Simplification (section 2.1)")]
+    pub(crate) side: SideChoice,
+
+    /// Exponent r of the edge lengths in the global embedding (Eq. 5)
+    #[arg(long, value_name = "R", default_value = "1", value_parser = finite, allow_negative_numbers = true,
+        help_heading = "Embedding (sections 2.2 and 2.3)")]
+    pub(crate) exponent: f64,
+    /// Edge weights of the local embedding (Eqs. 6 and 8)
+    #[arg(long, value_enum, default_value = "star4", help_heading = "Embedding (sections 2.2 and 2.3)")]
+    pub(crate) weights: WeightsChoice,
+    /// How Eq. 10 mixes the conformal and the authalic weights
+    #[arg(
+        long,
+        value_enum,
+        default_value = "row-normalized",
+        help_heading = "Embedding (sections 2.2 and 2.3)"
+    )]
+    pub(crate) mixing: MixingChoice,
+
+    /// Leave overlaps as they are
+    #[arg(long, help_heading = "Overlap removal (section 2.4)")]
+    pub(crate) no_overlap_removal: bool,
+    /// λ1 of Eq. 11, for the immediate one-ring; 0 < λ1 + λ2 < 1
+    #[arg(long, value_name = "L", default_value = "0.6", value_parser = unit,
+        help_heading = "Overlap removal (section 2.4)")]
+    pub(crate) lambda1: f64,
+    /// λ2 of Eq. 11, for the diagonal one-ring
+    #[arg(long, value_name = "L", default_value = "0.3", value_parser = unit,
+        help_heading = "Overlap removal (section 2.4)")]
+    pub(crate) lambda2: f64,
+    /// In which order overlapping vertices move
+    #[arg(long, value_enum, default_value = "worst-first", help_heading = "Overlap removal (section 2.4)")]
+    pub(crate) order: OrderChoice,
+    /// Moves at most, as a multiple of the number of vertices
+    #[arg(long, value_name = "N", default_value = "20", value_parser = not_negative,
+        help_heading = "Overlap removal (section 2.4)")]
+    pub(crate) max_moves: f64,
+
+    /// What solves the linear systems
+    #[arg(long, value_enum, default_value = "auto", help_heading = "Linear systems")]
+    pub(crate) backend: BackendChoice,
+    /// Refuse a solution with a larger relative residual
+    #[arg(long, value_name = "R", default_value = "1e-8", value_parser = positive,
+        help_heading = "Linear systems")]
+    pub(crate) residual_bound: f64,
+    /// Iterations at most, for the iterative backend
+    #[arg(long, value_name = "N", default_value = "2000", help_heading = "Linear systems")]
+    pub(crate) max_iterations: usize,
+    /// Threads; 0 takes one per processor. The result is the same for any number
+    #[arg(long, value_name = "N", default_value = "0", help_heading = "Linear systems")]
+    pub(crate) threads: usize,
+
+    /// Print the report as JSON
+    #[arg(long, action = ArgAction::SetTrue, help_heading = "Report")]
+    pub(crate) json: bool,
+    /// Print nothing but errors
+    #[arg(long, action = ArgAction::SetTrue, conflicts_with = "json", help_heading = "Report")]
+    pub(crate) quiet: bool,
+}
+
+const AFTER_LONG_HELP: &str = "\
+Configuration file:
+  Defaults for the options above, one `name = value` a line, without the dashes:
+      q = 0.8
+      boundary = \"square\"
+      no-overlap-removal = true
+  Read from --config FILE, else from qparam.toml in the working directory, else from
+  $XDG_CONFIG_HOME/qparam/config.toml (~/.config when that is not set). The command line wins.
+
+Exit codes:
+    0  the map is written and valid (no flips, no overlaps)
+    2  wrong usage: an option, or the configuration file
+    3  the input could not be read or parsed
+    4  the mesh is not supported (not manifold, not a disk); the message says what it is
+    5  the computation failed
+    6  the output could not be written
+    7  UVs were written, but flips or overlaps remain
+  130  interrupted";
+
+impl UnwrapArgs {
+    /// The library's options. A fixed boundary is still empty: its file has not been read.
+    pub(crate) fn options(&self) -> Result<Options, Failure> {
+        self.check()?;
+        let threshold = match self.remove_below {
+            Some(value) => Threshold::Value(value),
+            None => Threshold::Fraction(self.remove_fraction),
+        };
+        let overlaps = OverlapOptions {
+            lambda1: self.lambda1,
+            lambda2: self.lambda2,
+            order: self.order.into(),
+            max_moves_per_vertex: self.max_moves,
+        };
+        Ok(Options {
+            method: self.method.into(),
+            q: self.q,
+            boundary: match self.boundary {
+                BoundaryChoice::Circle => BoundaryShape::Circle,
+                BoundaryChoice::Square => BoundaryShape::Square,
+                BoundaryChoice::Projection => BoundaryShape::Projection,
+                BoundaryChoice::Fixed => BoundaryShape::Fixed(Vec::new()),
+            },
+            simplify: SimplifyOptions {
+                rule: self.rule.into(),
+                measure: self.curvature.into(),
+                area: self.area.into(),
+                threshold,
+                side: self.side.into(),
+            },
+            exponent: self.exponent,
+            weights: self.weights.into(),
+            mixing: self.mixing.into(),
+            overlaps: (!self.no_overlap_removal).then_some(overlaps),
+            solve: SolveOptions {
+                backend: self.backend.into(),
+                residual_bound: self.residual_bound,
+                max_iterations: self.max_iterations,
+            },
+            normalize: !self.no_normalize,
+        })
+    }
+
+    /// What no single option shows.
+    fn check(&self) -> Result<(), Failure> {
+        let refuse = |message: String, help: &str| Err(Failure::new(Exit::Usage, message).help(help));
+        let sum = self.lambda1 + self.lambda2;
+        if !self.no_overlap_removal && !(sum > 0.0 && sum < 1.0) {
+            return refuse(
+                format!("--lambda1 {} and --lambda2 {} add up to {sum}", self.lambda1, self.lambda2),
+                "Eq. 11 needs 0 < λ1 + λ2 < 1, for example --lambda1 0.6 --lambda2 0.3",
+            );
+        }
+        match (self.boundary, &self.boundary_uv) {
+            (BoundaryChoice::Fixed, None) => refuse(
+                "--boundary fixed needs the positions of the boundary vertices".into(),
+                "name a file with --boundary-uv FILE: an OBJ with UVs, or lines `vertex u v`",
+            ),
+            (choice, Some(_)) if choice != BoundaryChoice::Fixed => refuse(
+                "--boundary-uv has no effect without --boundary fixed".into(),
+                "add --boundary fixed, or leave --boundary-uv out",
+            ),
+            _ if self.method != MethodChoice::Paper && self.simplified.is_some() => refuse(
+                "--simplified: only the method `paper` simplifies".into(),
+                "leave --simplified out, or use --method paper",
+            ),
+            _ => Ok(()),
+        }
+    }
+}
+
+fn number(text: &str, accept: impl Fn(f64) -> bool, expected: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if accept(value) => Ok(value),
+        _ => Err(format!("expected {expected}")),
+    }
+}
+
+fn unit(text: &str) -> Result<f64, String> {
+    number(text, |x| (0.0..=1.0).contains(&x), "a number between 0 and 1")
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    number(text, |x| x >= 0.0 && x.is_finite(), "a number of at least 0")
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    number(text, |x| x > 0.0 && x.is_finite(), "a number above 0")
+}
+
+fn finite(text: &str) -> Result<f64, String> {
+    number(text, f64::is_finite, "a finite number")
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::{Options, UnwrapArgs};
+
+    #[derive(Parser)]
+    struct Alone {
+        #[command(flatten)]
+        unwrap: UnwrapArgs,
+    }
+
+    fn options(arguments: &[&str]) -> Options {
+        let alone = Alone::try_parse_from([&["unwrap", "in.obj"], arguments].concat()).unwrap();
+        alone.unwrap.options().unwrap()
+    }
+
+    /// The help shows the library's defaults: saying nothing means the same here and there.
+    #[test]
+    fn the_defaults_are_those_of_the_library() {
+        assert_eq!(options(&[]), Options::default());
+    }
+
+    /// Every option changes exactly the library option it names.
+    #[test]
+    fn every_choice_arrives() {
+        let changes = [
+            "--method=lscm",
+            "--q=0.25",
+            "--boundary=square",
+            "--no-normalize",
+            "--rule=ring",
+            "--remove-fraction=0.1",
+            "--remove-below=0.1",
+            "--curvature=integrated",
+            "--area=face-sum",
+            "--side=high",
+            "--exponent=2",
+            "--weights=star1",
+            "--mixing=raw",
+            "--no-overlap-removal",
+            "--lambda1=0.1",
+            "--lambda2=0.1",
+            "--order=first-come",
+            "--max-moves=1",
+            "--backend=direct",
+            "--residual-bound=1e-3",
+            "--max-iterations=9",
+        ];
+        let results: Vec<_> = changes.iter().map(|change| options(&[change])).collect();
+        for (i, result) in results.iter().enumerate() {
+            assert_ne!(*result, Options::default(), "{} does nothing", changes[i]);
+            for (j, other) in results.iter().enumerate().skip(i + 1) {
+                assert_ne!(result, other, "{} and {} do the same", changes[i], changes[j]);
+            }
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! Bad input gets one clear message with its place and the way out, a documented exit code, and no output.
+
+mod common;
+
+use common::{CUBE, Folder, hill};
+
+const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+fn square(rest: &str) -> Vec<u8> {
+    format!("{SQUARE}{rest}").into_bytes()
+}
+
+/// A ring of `n` quads; `twist` joins its end upside down, which makes it a Möbius strip.
+fn ring(n: usize, twist: bool) -> Vec<u8> {
+    let mut text = String::new();
+    for i in 0..n {
+        let angle = std::f64::consts::TAU * i as f64 / n as f64;
+        let (sin, cos) = angle.sin_cos();
+        text += &format!("v {cos:.4} {sin:.4} 0\nv {cos:.4} {sin:.4} 1\n");
+    }
+    for i in 0..n {
+        let (a, b) = (2 * i + 1, 2 * i + 2);
+        let (c, d) = if i + 1 < n { (a + 2, b + 2) } else { (1, 2) };
+        let (c, d) = if twist && i + 1 == n { (d, c) } else { (c, d) };
+        text += &format!("f {a} {c} {d} {b}\n");
+    }
+    text.into_bytes()
+}
+
+/// Name, content, exit code.
+fn cases() -> Vec<(&'static str, Vec<u8>, i32)> {
+    let hill = hill(4);
+    vec![
+        ("empty", Vec::new(), 3),
+        ("binary", (0..4096_u32).map(|i| (i * 131 % 256) as u8).collect(), 3),
+        ("truncated in a number", hill.as_bytes()[..hill.find("usemtl").unwrap() - 30].to_vec(), 3),
+        ("truncated in a face", square("f 1 2"), 3),
+        ("no faces", square(""), 3),
+        ("not a number", b"v 0 0 0\nv 1 zero 0\nv 1 1 0\nf 1 2 3\n".to_vec(), 3),
+        ("nan", b"v 0 0 0\nv 1 nan 0\nv 1 1 0\nf 1 2 3\n".to_vec(), 3),
+        ("infinite", b"v 0 0 0\nv 1 1e999 0\nv 1 1 0\nf 1 2 3\n".to_vec(), 3),
+        ("two coordinates", b"v 0 0\nv 1 1 0\nv 1 1 0\nf 1 2 3\n".to_vec(), 3),
+        ("index out of range", square("f 1 2 3 9\n"), 3),
+        ("index zero", square("f 0 1 2 3\n"), 3),
+        ("index that wraps", square("f 1 2 3 4294967297\n"), 3),
+        ("negative index too far", square("f -1 -2 -3 -9\n"), 3),
+        ("two corners", square("f 1 2\n"), 3),
+        ("letters for indices", square("f a b c d\n"), 3),
+        ("repeated vertex", square("f 1 2 2 3\n"), 4),
+        ("edge of three faces", [SQUARE, "v 0 0 1\nv 1 0 1\nv 0 0 -1\nv 1 0 -1\n", "f 1 2 3 4\nf 2 1 5 6\nf 2 1 7 8\n"].concat().into(), 4),
+        ("fans that touch", [SQUARE, "v 2 1 0\nv 2 2 0\nv 1 2 0\n", "f 1 2 3 4\nf 3 5 6 7\n"].concat().into(), 4),
+        ("turned over", [SQUARE, "v 2 0 0\nv 2 1 0\n", "f 1 2 3 4\nf 2 3 6 5\n"].concat().into(), 4),
+        ("Moebius", ring(7, true), 4),
+        ("closed", CUBE.into(), 4),
+        ("two boundaries", ring(6, false), 4),
+        ("two components", [SQUARE, "v 5 0 0\nv 6 0 0\nv 6 1 0\nv 5 1 0\n", "f 1 2 3 4\nf 5 6 7 8\n"].concat().into(), 4),
+    ]
+}
+
+#[test]
+fn every_bad_input_has_one_message_and_leaves_nothing() {
+    let mut shown = String::new();
+    for (name, content, code) in cases() {
+        let folder = Folder::new();
+        folder.write("in.obj", content);
+        let run = folder.qparam(&["unwrap", "in.obj"]);
+        assert_eq!(run.code, code, "{name}: {}", run.stderr);
+        assert_eq!(folder.names(), ["in.obj"], "{name}");
+        assert_eq!(run.stdout, "", "{name}");
+        assert_eq!(run.stderr.matches("error:").count(), 1, "{name}: {}", run.stderr);
+        assert!(!run.stderr.contains("panicked"), "{name}: {}", run.stderr);
+        shown += &format!("## {name} ({code})\n{}\n", run.stderr);
+    }
+    insta::assert_snapshot!(shown);
+}
+
+/// Faces without area, and vertices in one place: a map may or may not exist, but nobody panics, and what is
+/// written is reported truthfully.
+#[test]
+fn degenerate_positions_are_survived() {
+    let flat = |position: fn(usize, usize) -> [f64; 3]| {
+        let mut text = String::new();
+        for (row, column) in (0..4).flat_map(|row| (0..4).map(move |column| (row, column))) {
+            let [x, y, z] = position(row, column);
+            text += &format!("v {x} {y} {z}\n");
+        }
+        for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {
+            let first = row * 4 + column + 1;
+            text += &format!("f {} {} {} {}\n", first, first + 1, first + 5, first + 4);
+        }
+        text
+    };
+    let cases = [
+        ("coincident", flat(|_, _| [1.0, 2.0, 3.0])),
+        ("collinear", flat(|row, column| [(row + column) as f64, 0.0, 0.0])),
+        ("tiny", flat(|row, column| [1e-300 * row as f64, 1e-300 * column as f64, 0.0])),
+        ("huge", flat(|row, column| [1e59 * row as f64, 1e59 * column as f64, 0.0])),
+    ];
+    for (name, text) in cases {
+        for method in ["paper", "uniform", "mean-value", "harmonic", "lscm"] {
+            let folder = Folder::new();
+            folder.write("in.obj", &text);
+            let run = folder.qparam(&["unwrap", "in.obj", "--method", method]);
+            assert!([0, 5, 7].contains(&run.code), "{name}, {method}: {} {}", run.code, run.stderr);
+            assert!(!run.stderr.contains("panicked"), "{name}, {method}: {}", run.stderr);
+            assert_eq!(folder.path("in_uv.obj").exists(), run.code != 5, "{name}, {method}");
+        }
+    }
+}
+
+#[test]
+fn a_missing_file_is_named() {
+    let folder = Folder::new();
+    let run = folder.qparam(&["unwrap", "nowhere.obj"]).code(3);
+    insta::assert_snapshot!(run.stderr, @r"
+    error: nowhere.obj could not be read
+      No such file or directory (os error 2)
+      help: check the path; `-` reads standard input
+    ");
+}
+
+/// Programs get the same failure on standard output.
+#[test]
+fn failures_are_json_for_programs() {
+    let folder = Folder::new();
+    folder.write("in.obj", CUBE);
+    let json = folder.qparam(&["unwrap", "in.obj", "--json"]).code(4).json();
+    assert_eq!((&json["schema_version"], &json["exit_code"]), (&1.into(), &4.into()));
+    assert_eq!(json["error"]["class"], "mesh");
+    assert!(json["error"]["message"].as_str().unwrap().contains("closed"));
+}

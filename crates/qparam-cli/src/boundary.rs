@@ -30,8 +30,9 @@ pub(crate) fn read(
         .map(|vertex| {
             let source = mesh.source_vertex(vertex);
             given[source as usize].map(|uv| (vertex, uv)).ok_or_else(|| {
-                let place = input.at_vertex(source);
-                Failure::new(Exit::Input, format!("{name}: no position for vertex {} ({place})", source + 1))
+                let line = input.document.vertex_line(source as usize);
+                let place = format!("vertex {} ({}:{line})", source + 1, input.name);
+                Failure::new(Exit::Input, format!("{name}: no position for {place}"))
                     .help("every vertex on the boundary needs one; `qparam info` counts them")
             })
         })

@@ -8,12 +8,13 @@ use qoptimize::qmesh::Topology;
 use serde::Serialize;
 
 use crate::args::InfoArgs;
+use crate::disk::{describe, require_disk};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::info::connectivity::Connectivity;
 use crate::info::labels::Labels;
 use crate::info::shape::{Shape, Spread};
-use crate::input::{Input, describe, require_disk};
+use crate::input::Input;
 use crate::json_text;
 use crate::report::Head;
 use crate::streams::Streams;
@@ -138,7 +139,7 @@ impl Report {
             (edges.shared_diagonals, "pair", "of opposite vertices shared by several quads"),
             (shape.zero_area_faces, "face", "of no area"),
             (shape.concave_quads, "quad", "with a concave corner"),
-            (shape.nonplanar_quads, "quad", "far from planar (diagonals apart by over 5 % of their length)"),
+            (shape.nonplanar_quads, "quad", "far from planar (diagonals apart by over 10 % of their length)"),
             (self.triangles, "triangle", ""),
             (self.polygons, "polygon", "of five corners or more"),
         ];

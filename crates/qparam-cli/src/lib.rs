@@ -36,6 +36,7 @@ mod config;
 mod unwrap_args;
 
 mod boundary;
+mod disk;
 mod input;
 mod output;
 mod translate;
@@ -134,3 +135,8 @@ fn json_text(report: &impl Serialize) -> String {
     serde_json::to_string_pretty(report)
         .map_or_else(|error| format!("{{\"error\": \"{error}\"}}\n"), |text| text + "\n")
 }
+
+/// The README's example is compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

@@ -51,7 +51,9 @@ pub(crate) fn run(arguments: &MeasureArgs, io: &mut Streams<'_>) -> Result<Exit,
 
 fn measured(input: Input) -> Result<FileReport, Failure> {
     let uv = input.document.corner_uv().ok_or_else(|| {
-        Failure::new(Exit::Input, format!("{}: some faces have no UVs", input.name))
+        let corners = input.document.corner_count();
+        let missing = corners - input.document.corners_with_uv();
+        Failure::new(Exit::Input, format!("{}: {missing} of {corners} corners have no UV", input.name))
             .help("every corner needs a texture index (`f 1/1 2/2 …`); `qparam unwrap` computes UVs")
     })?;
     let distortion = measure(input.document.view(), &uv).map_err(|error| {

@@ -61,16 +61,16 @@ impl Target {
     }
 
     /// Hands `content` a writer; the target changes only when everything went well.
-    pub(crate) fn write(
+    pub(crate) fn write<T>(
         &self,
         stdout: &mut dyn Write,
         interrupt: &Interrupt,
-        content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<(), Failure> {
+        content: impl FnOnce(&mut dyn Write) -> io::Result<T>,
+    ) -> Result<T, Failure> {
         match self {
             Self::Stdout => {
                 let mut writer = BufWriter::with_capacity(BUFFER, stdout);
-                let result = content(&mut writer).and_then(|()| writer.flush());
+                let result = content(&mut writer).and_then(|value| writer.flush().map(|()| value));
                 // Whatever is left in the buffer has nowhere to go, and must not be tried again.
                 let _ = writer.into_parts();
                 result.map_err(|error| {
@@ -79,8 +79,8 @@ impl Target {
             }
             Self::File(path) => {
                 match interrupt.during(Phase::Writing, || replace(path, interrupt, content)) {
-                    Ok(true) => Ok(()),
-                    Ok(false) => Err(Failure::interrupted()),
+                    Ok(Some(value)) => Ok(value),
+                    Ok(None) => Err(Failure::interrupted()),
                     Err(error) => Err(cannot(path, &error)),
                 }
             }
@@ -92,18 +92,18 @@ fn cannot(path: &Path, error: &io::Error) -> Failure {
     Failure::new(Exit::Output, format!("{} could not be written", path.display())).cause(error)
 }
 
-/// `false`: interrupted, and nothing has changed.
-fn replace(
+/// `None`: interrupted, and nothing has changed.
+fn replace<T>(
     path: &Path,
     interrupt: &Interrupt,
-    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<bool> {
+    content: impl FnOnce(&mut dyn Write) -> io::Result<T>,
+) -> io::Result<Option<T>> {
     let existing = fs::metadata(path).ok();
     if existing.as_ref().is_some_and(|found| !found.is_file()) {
         // A device or a pipe cannot be renamed over.
         let mut writer = BufWriter::with_capacity(BUFFER, File::options().write(true).open(path)?);
-        content(&mut writer)?;
-        return writer.flush().map(|()| true);
+        let value = content(&mut writer)?;
+        return writer.flush().map(|()| Some(value));
     }
     let target = real_target(path)?;
     let folder = folder_of(&target);
@@ -116,7 +116,7 @@ fn replace(
     }
     let file = temporary.tempfile_in(&folder)?;
     let mut writer = BufWriter::with_capacity(BUFFER, file);
-    content(&mut writer)?;
+    let value = content(&mut writer)?;
     let file = writer.into_inner().map_err(io::IntoInnerError::into_error)?;
     if let Some(existing) = existing {
         // Another owner's permissions may be refused; the content matters more.
@@ -124,10 +124,10 @@ fn replace(
     }
     file.as_file().sync_all()?;
     if interrupt.is_requested() {
-        return Ok(false);
+        return Ok(None);
     }
     file.persist(&target).map_err(|error| error.error)?;
-    Ok(true)
+    Ok(Some(value))
 }
 
 /// Behind a symbolic link, the file itself is replaced, and the link stays; also where it dangles.
@@ -179,7 +179,7 @@ mod tests {
         let failure = Target::new(&path)
             .write(&mut io::sink(), &Interrupt::new(), |w| {
                 w.write_all(&[b'x'; 1 << 20])?;
-                Err(io::Error::other("disk full"))
+                Err::<(), _>(io::Error::other("disk full"))
             })
             .unwrap_err();
         assert_eq!(failure.class, Exit::Output);

@@ -1,5 +1,6 @@
 //! Reports: the same figures for machines (JSON) and for people (a table).
 
+use qoptimize::qmesh::obj::UvWriteSummary;
 use qoptimize::{Distortion, RunRecord};
 use serde::Serialize;
 
@@ -55,6 +56,8 @@ pub(crate) struct UnwrapReport<'a> {
     pub(crate) head: Head,
     pub(crate) input: InputReport,
     pub(crate) output: String,
+    /// What became of the `vt` lines.
+    pub(crate) uv_lines: UvWriteSummary,
     pub(crate) valid: bool,
     pub(crate) distortion: &'a Distortion,
     pub(crate) options: serde_json::Value,

@@ -8,8 +8,10 @@ use crate::input::Input;
 
 /// Why the polygons of `input` are no mesh.
 pub(crate) fn refused(error: &BuildError, input: &Input) -> Failure {
-    let face = |face: u32| format!("face {} ({})", face + 1, input.at_face(face));
-    let vertex = |vertex: u32| format!("vertex {} ({})", vertex + 1, input.at_vertex(vertex));
+    let document = &input.document;
+    let face = |face: u32| format!("face {} (line {})", face + 1, document.face_line(face as usize));
+    let vertex =
+        |vertex: u32| format!("vertex {} (line {})", vertex + 1, document.vertex_line(vertex as usize));
     let fail = |class, text: String, help: &str| {
         Failure::new(class, format!("{}: {text}", input.name)).help(help.to_owned())
     };

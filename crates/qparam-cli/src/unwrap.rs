@@ -6,16 +6,17 @@ use std::time::Instant;
 use clap::ValueEnum;
 use qoptimize::qembed::BoundaryShape;
 use qoptimize::qmesh::QuadMesh;
-use qoptimize::qmesh::obj::write_obj;
+use qoptimize::qmesh::obj::{UvWriteSummary, write_obj};
 use qoptimize::qsimplify::{SimplifyError, simplify};
 use qoptimize::{Options, Parameterization, parameterize};
 
 use crate::args::UnwrapArgs;
 use crate::boundary;
 use crate::choices::{MethodChoice, RuleChoice};
+use crate::disk::require_disk;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::input::{Input, require_disk};
+use crate::input::Input;
 use crate::interrupt::Phase;
 use crate::json_text;
 use crate::output::Target;
@@ -62,7 +63,7 @@ pub(crate) fn run(arguments: &UnwrapArgs, typed: &[String], io: &mut Streams<'_>
     let job = Job { arguments, options, input, mesh, target };
     let (result, stages) = timed(&mut timings.parameterize, || job.compute(io))?;
     timings.stages = stages;
-    timed(&mut timings.write, || {
+    let written = timed(&mut timings.write, || {
         if let Some(target) = &simplified {
             job.write_simplified(target, io)?;
         }
@@ -71,7 +72,7 @@ pub(crate) fn run(arguments: &UnwrapArgs, typed: &[String], io: &mut Streams<'_>
         })
     })?;
     timings.total = start.elapsed().as_secs_f64();
-    job.report(&result, timings, io)
+    job.report(&result, written, timings, io)
 }
 
 fn timed<T>(seconds: &mut f64, work: impl FnOnce() -> T) -> T {
@@ -200,6 +201,7 @@ impl Job<'_> {
     fn report(
         &self,
         result: &Parameterization,
+        uv_lines: UvWriteSummary,
         timings: Timings,
         io: &mut Streams<'_>,
     ) -> Result<Exit, Failure> {
@@ -209,6 +211,7 @@ impl Job<'_> {
             head: Head::new("unwrap"),
             input: self.input_report(),
             output: self.target.to_string(),
+            uv_lines,
             valid,
             distortion: &result.distortion,
             options: options_json(&self.options, arguments.boundary_uv.as_deref()),

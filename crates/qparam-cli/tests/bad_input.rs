@@ -47,13 +47,27 @@ fn cases() -> Vec<(&'static str, Vec<u8>, i32)> {
         ("two corners", square("f 1 2\n"), 3),
         ("letters for indices", square("f a b c d\n"), 3),
         ("repeated vertex", square("f 1 2 2 3\n"), 4),
-        ("edge of three faces", [SQUARE, "v 0 0 1\nv 1 0 1\nv 0 0 -1\nv 1 0 -1\n", "f 1 2 3 4\nf 2 1 5 6\nf 2 1 7 8\n"].concat().into(), 4),
-        ("fans that touch", [SQUARE, "v 2 1 0\nv 2 2 0\nv 1 2 0\n", "f 1 2 3 4\nf 3 5 6 7\n"].concat().into(), 4),
+        (
+            "edge of three faces",
+            [SQUARE, "v 0 0 1\nv 1 0 1\nv 0 0 -1\nv 1 0 -1\n", "f 1 2 3 4\nf 2 1 5 6\nf 2 1 7 8\n"]
+                .concat()
+                .into(),
+            4,
+        ),
+        (
+            "fans that touch",
+            [SQUARE, "v 2 1 0\nv 2 2 0\nv 1 2 0\n", "f 1 2 3 4\nf 3 5 6 7\n"].concat().into(),
+            4,
+        ),
         ("turned over", [SQUARE, "v 2 0 0\nv 2 1 0\n", "f 1 2 3 4\nf 2 3 6 5\n"].concat().into(), 4),
         ("Moebius", ring(7, true), 4),
         ("closed", CUBE.into(), 4),
         ("two boundaries", ring(6, false), 4),
-        ("two components", [SQUARE, "v 5 0 0\nv 6 0 0\nv 6 1 0\nv 5 1 0\n", "f 1 2 3 4\nf 5 6 7 8\n"].concat().into(), 4),
+        (
+            "two components",
+            [SQUARE, "v 5 0 0\nv 6 0 0\nv 6 1 0\nv 5 1 0\n", "f 1 2 3 4\nf 5 6 7 8\n"].concat().into(),
+            4,
+        ),
     ]
 }
 

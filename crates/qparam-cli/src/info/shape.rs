@@ -4,7 +4,7 @@ use qoptimize::qmesh::{PolygonView, Vec3};
 use serde::Serialize;
 
 /// The diagonals of a quad far from planar pass each other at more than this part of their mean length.
-const WARP_LIMIT: f64 = 0.05;
+const WARP_LIMIT: f64 = 0.1;
 
 /// Smallest, median and largest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -26,7 +26,7 @@ pub(crate) struct Shape {
     pub(crate) zero_area_faces: usize,
     /// Quads with a corner that turns against the quad's normal.
     pub(crate) concave_quads: usize,
-    /// Quads whose diagonals pass each other at over 5 % of their mean length.
+    /// Quads whose diagonals pass each other at over 10 % of their mean length.
     pub(crate) nonplanar_quads: usize,
 }
 

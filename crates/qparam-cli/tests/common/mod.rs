@@ -1,6 +1,6 @@
 //! A folder of its own for each test, and `qparam` run in it.
 
-#![allow(dead_code, reason = "every test file uses its own part")]
+#![allow(dead_code, unreachable_pub, reason = "every test file uses its own part")]
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -1,0 +1,105 @@
+//! Files are replaced as a whole or not at all.
+
+mod common;
+
+use std::process::Stdio;
+
+use common::{Folder, hill};
+
+#[test]
+fn the_output_may_be_the_input() {
+    let folder = Folder::new();
+    folder.write("in.obj", hill(4));
+    folder.qparam(&["unwrap", "in.obj", "-o", "out.obj"]).code(0);
+    folder.qparam(&["unwrap", "in.obj", "-o", "in.obj"]).code(0);
+    assert_eq!(folder.read("in.obj"), folder.read("out.obj"));
+    assert_eq!(folder.names(), ["in.obj", "out.obj"]);
+}
+
+#[test]
+fn a_target_that_cannot_be_is_refused_before_the_work() {
+    let folder = Folder::new();
+    folder.write("in.obj", hill(4));
+    std::fs::create_dir(folder.path("folder")).unwrap();
+    for target in ["folder", "missing/out.obj", "in.obj/out.obj"] {
+        let run = folder.qparam(&["unwrap", "in.obj", "-o", target]).code(6);
+        assert!(run.stderr.contains("help:"), "{target}: {}", run.stderr);
+        assert_eq!(folder.names(), ["folder", "in.obj"], "{target}");
+    }
+}
+
+/// With a folder that may not be written, nothing appears in it. (The superuser may write everywhere.)
+#[cfg(unix)]
+#[test]
+fn a_read_only_folder_stays_as_it_is() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = Folder::new();
+    folder.write("in.obj", hill(4));
+    let closed = folder.path("closed");
+    std::fs::create_dir(&closed).unwrap();
+    std::fs::set_permissions(&closed, std::fs::Permissions::from_mode(0o555)).unwrap();
+    let superuser =
+        std::fs::write(closed.join("probe"), "").and_then(|()| std::fs::remove_file(closed.join("probe")));
+    let run = folder.qparam(&["unwrap", "in.obj", "-o", "closed/out.obj"]);
+    if superuser.is_err() {
+        assert_eq!(run.code, 6, "{}", run.stderr);
+        assert!(common::names(&closed).is_empty());
+    }
+    std::fs::set_permissions(&closed, std::fs::Permissions::from_mode(0o755)).unwrap();
+}
+
+/// A full disk is noticed; `/dev/full` is one.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_a_failure() {
+    let folder = Folder::new();
+    folder.write("in.obj", hill(4));
+    let run = folder.qparam(&["unwrap", "in.obj", "-o", "/dev/full"]).code(6);
+    assert!(run.stderr.contains("No space left"), "{}", run.stderr);
+    let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
+    let output = folder.command(&["info", "in.obj"]).stdout(full).output().unwrap();
+    assert_eq!(output.status.code(), Some(6));
+}
+
+/// `qparam … | head` ends without a panic, whatever was printed.
+#[test]
+fn a_reader_that_leaves_is_no_panic() {
+    let folder = Folder::new();
+    folder.write("in.obj", hill(40));
+    for arguments in [&["info", "in.obj"][..], &["unwrap", "in.obj", "-o", "-"], &["completions", "bash"]] {
+        let mut child =
+            folder.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert!(!message.contains("panicked"), "{arguments:?}: {message}");
+        let expected = if arguments[0] == "unwrap" { 6 } else { 0 };
+        assert_eq!(output.status.code(), Some(expected), "{arguments:?}: {message}");
+    }
+}
+
+/// Ctrl-C at any moment: exit code 130 and no file, or the work was already done.
+#[cfg(unix)]
+#[test]
+fn ctrl_c_leaves_nothing_behind() {
+    use std::process::Command;
+    let folder = Folder::new();
+    folder.write("in.obj", hill(120));
+    let mut interrupted = 0;
+    for milliseconds in [0, 30, 60, 120, 240] {
+        let mut child = folder.command(&["unwrap", "in.obj", "--quiet"]).spawn().unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(milliseconds));
+        let id = child.id().to_string();
+        assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+        let status = child.wait().unwrap();
+        let names = folder.names();
+        match status.code() {
+            Some(0) => std::fs::remove_file(folder.path("in_uv.obj")).unwrap(),
+            // Before the handler is in place, the signal itself ends the process.
+            Some(130) | None => interrupted += 1,
+            other => panic!("exit code {other:?}"),
+        }
+        assert!(names == ["in.obj"] || status.code() == Some(0), "{names:?}");
+    }
+    assert!(interrupted > 0, "at least the signal at once comes before the end");
+}

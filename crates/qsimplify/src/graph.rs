@@ -5,6 +5,10 @@ use qcurv::qmesh::{HalfedgeId, Id, QuadMesh, VertexId};
 /// Marks a halfedge that is gone.
 pub(crate) const GONE: u32 = u32::MAX;
 
+/// Vertices with more edges stop removals next to them. Each of those would have to look at all of them: quadratic time
+/// around the poles of a ball.
+pub(crate) const MAX_EDGES: u32 = 1024;
+
 /// Halfedges linked around faces. Faces below `inner_faces` are those of the mesh, then follow the boundary loops, then
 /// faces that removals made.
 pub(crate) struct PolygonGraph {

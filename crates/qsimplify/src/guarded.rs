@@ -7,8 +7,12 @@
 //! never make, inside.
 
 use crate::Removal;
-use crate::graph::{GONE, PolygonGraph};
+use crate::graph::{GONE, MAX_EDGES, PolygonGraph};
 use crate::meetings::{Marks, Meetings};
+
+/// The most corners that a merged face may have. In an order that runs along rows whole rows would merge to one face:
+/// quadratic time, and a graph that says nothing about where its vertices belong.
+const MAX_CORNERS: usize = 64;
 
 pub(crate) struct Guarded {
     meetings: Meetings,
@@ -31,7 +35,7 @@ impl Guarded {
         }
     }
 
-    /// Whether the merged face, gathered in `walk` on the way, is simple.
+    /// Whether the merged face, gathered in `walk` on the way, is simple and of moderate size.
     fn gather(&mut self, graph: &PolygonGraph) -> bool {
         self.walk.clear();
         self.star.begin(graph.face_count());
@@ -41,7 +45,9 @@ impl Guarded {
             let last = graph.previous[spoke as usize];
             let mut current = graph.next[spoke as usize];
             while current != last {
-                if !self.rim.insert(graph.origin[current as usize]) {
+                let vertex = graph.origin[current as usize];
+                let few = self.walk.len() < MAX_CORNERS && graph.degree[vertex as usize] <= MAX_EDGES;
+                if !few || !self.rim.insert(vertex) {
                     return false;
                 }
                 self.walk.push(current);

@@ -25,8 +25,8 @@
 //! Guaranteed: boundary vertices stay; with the rules `Guarded` and `Ring` the Euler characteristic and the boundary
 //! loops stay, and no two faces come to share two vertices without sharing the edges between them, so a 3-connected
 //! graph stays 3-connected and Tutte's theorem holds for Eq. 5 (each rule says what it means by that). Ties in
-//! curvature, up to rounding, are broken by index; the result does not depend on the number of threads. Time grows
-//! with the sizes of the faces and fans around the candidates: 190,000 quads take a fraction of a second.
+//! curvature, up to rounding, are broken by index; the result does not depend on the number of threads. Time is linear
+//! but for the sorting: 190,000 quads take less than half a second.
 //!
 //! Not guaranteed: that all candidates go, nor that the largest possible number does: each is tried once, in order.
 //! `Guarded` ends near a fifth of the interior vertices on real quad meshes, `Ring` near 95 %. `Naive` is deletion as the

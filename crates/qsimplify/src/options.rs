@@ -13,7 +13,8 @@ pub enum RemovalRule {
     ///
     /// A vertex goes if the union of its faces is a simple polygon, its interior neighbours keep three edges, and
     /// every other face, the outer ones included, meets the union in nothing, in one vertex or in one path. Ends near a
-    /// fifth of the interior vertices on real quad meshes (20-24 %), and never far above a third.
+    /// fifth of the interior vertices on real quad meshes (20-24 %), and never far above a third. To keep the time
+    /// linear, unions of more than 64 corners and next to vertices of more than 1024 edges are not made.
     #[default]
     Guarded,
     /// Deletion, then the neighbours are joined in a ring.
@@ -21,6 +22,7 @@ pub enum RemovalRule {
     /// The faces at the vertex lose it (triangles vanish) and the ring becomes a face. A vertex goes if the ring is a
     /// simple polygon that every other face, the outer ones included, meets in nothing, in one vertex or in one path
     /// (so no edge is doubled), and its interior neighbours keep three edges. Ends near 95 % on real quad meshes.
+    /// Next to vertices of more than 1024 edges nothing is removed, to keep the time linear.
     Ring,
     /// Eq. 5 on the full graph; only kept vertices keep their positions.
     Carrier,

@@ -2,18 +2,16 @@
 //!
 //! Each face at the vertex is cut off by a chord between its two neighbours and keeps the rest; a triangle has no rest
 //! and vanishes, its far edge being the chord. The ring becomes a face. What must hold of the ring is what must hold of
-//! the merged face in [`guarded`](crate::guarded); the rests then need no look of their own, for they lost a vertex and
-//! gained nothing but the chord. A vertex of two edges (two quads that share two edges) leaves a ring of two edges,
+//! the merged face in [`guarded`](crate::guarded): every other face, the rests included, meets it in one piece at most.
+//! The rests need no look at each other, for they lost a vertex and gained nothing but their chords. A vertex of two edges (two quads that share two edges) leaves a ring of two edges,
 //! which is closed to one.
 
 use crate::Removal;
-use crate::graph::{GONE, PolygonGraph};
-use crate::meetings::{Marks, Meetings};
+use crate::graph::{GONE, MAX_EDGES, PolygonGraph};
+use crate::meetings::Meetings;
 
 pub(crate) struct Ring {
     meetings: Meetings,
-    star: Marks,
-    rim: Marks,
     sectors: Vec<Sector>,
 }
 
@@ -40,12 +38,7 @@ impl Sector {
 
 impl Ring {
     pub(crate) fn new(graph: &PolygonGraph) -> Self {
-        Self {
-            meetings: Meetings::new(graph.face_count()),
-            star: Marks::new(graph.face_count()),
-            rim: Marks::new(graph.vertex_count()),
-            sectors: Vec::new(),
-        }
+        Self { meetings: Meetings::new(graph.face_count()), sectors: Vec::new() }
     }
 
     /// The edges that the neighbour at the start of sector `i` would have.
@@ -58,44 +51,25 @@ impl Ring {
         graph.degree[self.sectors[i].neighbor as usize] - 1 + gained
     }
 
+    fn neighbors_have_few_edges(&self, graph: &PolygonGraph) -> bool {
+        self.sectors.iter().all(|sector| graph.degree[sector.neighbor as usize] <= MAX_EDGES)
+    }
+
     fn neighbors_keep_three_edges(&self, graph: &PolygonGraph) -> bool {
         (0..self.sectors.len())
             .all(|i| graph.on_boundary[self.sectors[i].neighbor as usize] || self.new_degree(graph, i) >= 3)
     }
 
-    /// Whether the ring is simple and each face at the vertex meets it in its own chord alone.
-    fn chords_are_apart(&mut self, graph: &PolygonGraph) -> bool {
-        self.rim.begin(graph.vertex_count());
-        self.star.begin(graph.face_count());
-        for sector in &self.sectors {
-            self.star.insert(graph.face[sector.spoke as usize]);
-            if !self.rim.insert(sector.neighbor) {
-                return false;
-            }
-        }
-        self.sectors.iter().all(|sector| {
-            let mut current = sector.first;
-            while current != sector.last {
-                if self.rim.contains(graph.target(current)) {
-                    return false;
-                }
-                current = graph.next[current as usize];
-            }
-            true
-        })
-    }
-
     fn meets_all_in_one_piece(&mut self, graph: &PolygonGraph) -> bool {
         self.meetings.begin(graph.face_count());
         for sector in &self.sectors {
+            // The chord, with what is cut off on its other side, and across the chord of a triangle.
+            self.meetings.edge(graph.face[sector.spoke as usize]);
             if sector.is_triangle() {
                 self.meetings.edge(graph.face[graph.twin[sector.first as usize] as usize]);
             }
             for around in graph.fan(sector.neighbor) {
-                let face = graph.face[around as usize];
-                if !self.star.contains(face) {
-                    self.meetings.vertex(face);
-                }
+                self.meetings.vertex(graph.face[around as usize]);
             }
         }
         self.meetings.all_in_one_piece()
@@ -149,8 +123,8 @@ impl Removal for Ring {
     fn try_remove(&mut self, graph: &mut PolygonGraph, vertex: u32) -> bool {
         self.sectors.clear();
         self.sectors.extend(graph.fan(vertex).map(|spoke| Sector::new(graph, spoke)));
-        let fits = self.neighbors_keep_three_edges(graph)
-            && self.chords_are_apart(graph)
+        let fits = self.neighbors_have_few_edges(graph)
+            && self.neighbors_keep_three_edges(graph)
             && self.meets_all_in_one_piece(graph);
         if fits {
             self.remove(graph);

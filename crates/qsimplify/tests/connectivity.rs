@@ -226,6 +226,15 @@ fn poles() {
     }
 }
 
+/// In the order of the indices a plane would merge to strips as long as its rows; merged faces stop at 64 corners.
+#[test]
+fn merged_faces_stay_moderate() {
+    let kept = as_far_as_it_goes(&flat(200, 9), RemovalRule::Guarded);
+    let largest = kept.faces().map(|f| kept.degree(f)).max().unwrap();
+    assert!((60..=64).contains(&largest), "{largest}");
+    assert!(is_three_connected(&as_far_as_it_goes(&flat(45, 5), RemovalRule::Guarded)));
+}
+
 /// The smallest 3-connected graphs cannot lose anything.
 #[test]
 fn tetrahedron_stays() {

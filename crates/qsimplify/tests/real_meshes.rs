@@ -1,27 +1,9 @@
 //! Real quad meshes, from the folder that `QPARAM_MESHES` names; skipped without it.
 #![allow(clippy::print_stdout, clippy::unwrap_used)] // in helpers: helpers of tests are tests too
 
-use qcurv::qmesh::{Polygons, QuadMesh};
+use qcurv::qmesh::QuadMesh;
+use qcurv::qmesh::obj::ObjDocument;
 use qsimplify::{RemovalRule, Simplified, SimplifyOptions, Threshold, simplify};
-
-fn read(text: &str) -> QuadMesh {
-    let mut polygons = Polygons::default();
-    for line in text.lines() {
-        let mut words = line.split_whitespace();
-        match words.next() {
-            Some("v") => {
-                let p: Vec<f64> = words.map(|w| w.parse().unwrap()).collect();
-                polygons.positions.push([p[0], p[1], p[2]].into());
-            }
-            Some("f") => {
-                let index = |w: &str| w.split('/').next().unwrap().parse::<u32>().unwrap() - 1;
-                polygons.push_face(&words.map(index).collect::<Vec<_>>());
-            }
-            _ => {}
-        }
-    }
-    QuadMesh::build(polygons).unwrap()
-}
 
 fn meshes(names: &[&'static str]) -> Vec<(&'static str, QuadMesh)> {
     let Ok(folder) = std::env::var("QPARAM_MESHES") else {
@@ -30,7 +12,8 @@ fn meshes(names: &[&'static str]) -> Vec<(&'static str, QuadMesh)> {
     };
     let folder = std::path::Path::new(&folder);
     let load = |name: &&'static str| {
-        (*name, read(&std::fs::read_to_string(folder.join(name).with_extension("obj")).unwrap()))
+        let document = ObjDocument::from_path(folder.join(name).with_extension("obj")).unwrap();
+        (*name, QuadMesh::build(document.polygons()).unwrap())
     };
     names.iter().map(load).collect()
 }
@@ -40,8 +23,8 @@ fn run(mesh: &QuadMesh, rule: RemovalRule, fraction: f64) -> Simplified {
     simplify(mesh, &options, &()).unwrap()
 }
 
-/// Faces, heads, horns, terrain: deletion alone ends between a fifth and a quarter (the smoother, the more), rings go on to nineteen in twenty; topology stays, and
-/// no vertex inside is left with fewer than three edges unless it had fewer.
+/// Faces, heads, horns, terrain: deletion alone ends between a fifth and a quarter (the smoother, the more), rings go on
+/// to nineteen in twenty; topology stays, and no vertex inside is left with fewer than three edges unless it had fewer.
 #[test]
 fn reach_of_the_guarded_rules() {
     for (name, mesh) in

@@ -11,6 +11,11 @@ type Task = fn(&[String]) -> Result<(), String>;
 
 const TASKS: &[(&str, &str, Task)] = &[
     (
+        "compare",
+        "league table of qparam and its rivals on the same meshes (fetches the rivals)",
+        compare::run,
+    ),
+    (
         "fixtures",
         "regenerate fixtures/ from formulas, byte for byte; --check compares instead",
         fixtures::run,
@@ -18,6 +23,7 @@ const TASKS: &[(&str, &str, Task)] = &[
     ("tidy", "house rules: the chain of crates, module headers, every equation cited", tidy::run),
 ];
 
+mod compare;
 mod fixtures;
 mod tidy;
 

@@ -1,0 +1,119 @@
+//! The league as data: what the JSON holds and the Markdown is drawn from.
+
+use serde::{Deserialize, Serialize};
+
+use super::contestant::Absent;
+use super::machine::Machine;
+
+/// Changes when a field of the JSON is renamed, removed, or means something else.
+pub(super) const SCHEMA_VERSION: u32 = 1;
+
+/// Everything.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct League {
+    pub(super) schema_version: u32,
+    pub(super) machine: Machine,
+    pub(super) versions: Vec<String>,
+    pub(super) runs: u32,
+    pub(super) timeout_seconds: f64,
+    /// The method that ratios are taken against.
+    pub(super) baseline: String,
+    pub(super) meshes: Vec<MeshTable>,
+    /// Rivals that are not installed.
+    pub(super) absent: Vec<Absent>,
+}
+
+/// One mesh.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct MeshTable {
+    pub(super) name: String,
+    pub(super) about: About,
+    pub(super) rows: Vec<Row>,
+    /// Where `qparam measure` and the independent script differ.
+    pub(super) disagreements: Vec<String>,
+}
+
+/// What a mesh is.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub(super) struct About {
+    pub(super) vertices: usize,
+    pub(super) faces: usize,
+    pub(super) quads: usize,
+    /// Why it was refused.
+    pub(super) not_a_disk: Option<String>,
+}
+
+/// One method on one mesh.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Row {
+    pub(super) name: String,
+    pub(super) ours: bool,
+    /// How quads reach it.
+    pub(super) input: String,
+    pub(super) outcome: Outcome,
+}
+
+/// How it went.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Outcome {
+    /// No result.
+    Failed { message: String },
+    /// A result, good or bad.
+    Measured(Box<Figures>),
+}
+
+/// A result's figures; times and memory are medians.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Figures {
+    #[serde(flatten)]
+    pub(super) measures: Measures,
+    /// Quads that are not one polygon in the plane.
+    pub(super) torn_quads: usize,
+    /// Wall time of the computation alone, inside the process.
+    pub(super) solve_seconds: f64,
+    /// Wall time of the process: starting, reading, computing, writing.
+    pub(super) process_seconds: f64,
+    /// Processor time of the process.
+    pub(super) cpu_seconds: f64,
+    pub(super) peak_memory_bytes: u64,
+    /// Whether all runs wrote the same bytes.
+    pub(super) repeatable: bool,
+}
+
+/// What both measurers compute, under the field names of `qparam measure --json`.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub(super) struct Measures {
+    pub(super) faces: usize,
+    pub(super) islands: usize,
+    pub(super) mirrored_islands: usize,
+    pub(super) angle_error: f64,
+    pub(super) area_error: f64,
+    /// Of the corner triangles that are not flipped; none when all are.
+    pub(super) symmetric_dirichlet: Option<f64>,
+    pub(super) flipped_corners: usize,
+    pub(super) flipped_faces: usize,
+    pub(super) folded_faces: usize,
+    pub(super) boundary_crossings: usize,
+}
+
+impl Measures {
+    /// No flips and no overlaps within an island.
+    pub(super) fn is_valid(&self) -> bool {
+        self.flipped_corners == 0 && self.folded_faces == 0 && self.boundary_crossings == 0
+    }
+}
+
+impl League {
+    /// An error when the two measurers disagree anywhere, or when nothing of ours could be measured.
+    pub(super) fn verdict(&self) -> Result<(), String> {
+        let told = |mesh: &MeshTable| {
+            mesh.disagreements.iter().map(|text| format!("{}: {text}", mesh.name)).collect::<Vec<_>>()
+        };
+        let disagreements: Vec<String> = self.meshes.iter().flat_map(told).collect();
+        if disagreements.is_empty() {
+            return Ok(());
+        }
+        Err(format!("qparam measure and the independent script disagree:\n  {}", disagreements.join("\n  ")))
+    }
+}

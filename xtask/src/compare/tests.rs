@@ -1,0 +1,218 @@
+//! The table's arithmetic and words, and the independent script's own test.
+
+use std::process::Command;
+
+use super::agreement::{self, Independent};
+use super::contestant::Absent;
+use super::league::{About, Figures, League, Measures, MeshTable, Outcome, Row};
+use super::machine::{self, Machine};
+use super::numbers::{against, count_against, median, short};
+use super::{markdown, ours, race, shell};
+
+fn measures(angle_error: f64) -> Measures {
+    Measures {
+        faces: 10,
+        islands: 1,
+        mirrored_islands: 0,
+        angle_error,
+        area_error: 8.0,
+        symmetric_dirichlet: Some(1.25),
+        flipped_corners: 0,
+        flipped_faces: 0,
+        folded_faces: 0,
+        boundary_crossings: 0,
+    }
+}
+
+fn figures(measures: Measures) -> Outcome {
+    Outcome::Measured(Box::new(Figures {
+        measures,
+        torn_quads: 0,
+        solve_seconds: 0.5,
+        process_seconds: 1.0,
+        cpu_seconds: 1.0,
+        peak_memory_bytes: 20_000_000,
+        repeatable: true,
+    }))
+}
+
+fn row(name: &str, outcome: Outcome) -> Row {
+    Row { name: name.to_owned(), ours: name.starts_with("qparam"), input: "quads".to_owned(), outcome }
+}
+
+fn league(rows: Vec<Row>) -> League {
+    let about = About { vertices: 18, faces: 10, quads: 10, not_a_disk: None };
+    League {
+        schema_version: 1,
+        machine: Machine {
+            processor: "Model X".to_owned(),
+            threads: 2,
+            memory_gib: Some(24),
+            system: "linux x86_64".to_owned(),
+        },
+        versions: vec!["qparam 0.1.0".to_owned()],
+        runs: 3,
+        timeout_seconds: 60.0,
+        baseline: "qparam-paper".to_owned(),
+        meshes: vec![MeshTable { name: "m.obj".to_owned(), about, rows, disagreements: Vec::new() }],
+        absent: vec![Absent { tool: "CGAL".to_owned(), why: "no headers\nsecond line".to_owned() }],
+    }
+}
+
+fn line<'a>(text: &'a str, start: &str) -> &'a str {
+    text.lines().find(|line| line.starts_with(start)).unwrap_or("")
+}
+
+#[test]
+fn three_digits_whatever_the_size() {
+    let shown = [0.0, 1.0, 9.999, 57.84, 99_950.0, 123_456.0, 0.001_234, 0.000_999_9, 4.4e9, -2.5];
+    let expected = ["0", "1.00", "10.0", "57.8", "1.00e5", "1.23e5", "0.00123", "0.00100", "4.40e9", "-2.50"];
+    assert_eq!(shown.map(short), expected);
+}
+
+#[test]
+fn median_is_the_middle_in_any_order() {
+    assert_eq!(median(vec![3.0, 1.0, 2.0]).to_bits(), 2.0_f64.to_bits());
+    assert_eq!(median(vec![4.0, 1.0, 2.0, 9.0]).to_bits(), 3.0_f64.to_bits());
+}
+
+/// A ratio is theirs over ours; against nothing there is none, only a difference.
+#[test]
+fn ratios() {
+    assert_eq!(against(6.0, Some(3.0)), "6.00 (×2.00)");
+    assert_eq!(against(1.5, Some(3.0)), "1.50 (×0.500)");
+    assert_eq!(against(6.0, Some(0.0)), "6.00");
+    assert_eq!(against(6.0, None), "6.00");
+    assert_eq!(count_against(12, Some(0)), "12 (+12)");
+    assert_eq!(count_against(0, Some(0)), "0");
+    assert_eq!(count_against(12, Some(4)), "12 (×3.00)");
+    assert_eq!(count_against(0, Some(4)), "0 (×0)");
+    assert_eq!(count_against(12, None), "12");
+}
+
+/// Ours is bold and has no ratio; a rival has one in each column; one that failed says why, in one row.
+#[test]
+fn rows_of_the_table() {
+    let mut flipped = measures(4.0);
+    flipped.flipped_corners = 3;
+    let text = markdown::render(&league(vec![
+        row("qparam-paper", figures(measures(2.0))),
+        row("rival-a", figures(flipped)),
+        row("rival-b", Outcome::Failed { message: "Error: a | b\nmore".to_owned() }),
+    ]));
+    assert_eq!(
+        line(&text, "| **qparam-paper**"),
+        "| **qparam-paper** | yes | 2.00 | 8.00 | 1.25 | 0 | 0 | 0 | 0 | 1 | 0.500 | 1.00 | 20.0 |"
+    );
+    assert_eq!(
+        line(&text, "| rival-a"),
+        "| rival-a | no | 4.00 (×2.00) | 8.00 (×1.00) | 1.25 (×1.00) | 3 (+3) | 0 | 0 | 0 | 1 | 0.500 (×1.00) | \
+         1.00 (×1.00) | 20.0 (×1.00) |"
+    );
+    assert!(line(&text, "| rival-b").starts_with("| rival-b | failed: Error: a \\| b |"));
+    assert_eq!(line(&text, "- CGAL"), "- CGAL: no headers");
+    let pipes = |line: &str| line.replace("\\|", "").matches('|').count();
+    let table: Vec<usize> = text.lines().filter(|line| line.starts_with('|')).map(pipes).collect();
+    assert_eq!(table, [14; 5], "every row has every column");
+}
+
+/// Without our own result there is nothing to compare with, but the rivals' figures stand.
+#[test]
+fn no_ratios_when_ours_failed() {
+    let text = markdown::render(&league(vec![
+        row("qparam-paper", Outcome::Failed { message: "no".to_owned() }),
+        row("rival-a", figures(measures(4.0))),
+    ]));
+    assert!(line(&text, "| rival-a").contains("| 4.00 |"));
+}
+
+#[test]
+fn a_mesh_that_is_no_disk_is_listed_as_refused() {
+    let mut league = league(Vec::new());
+    league.meshes[0].about.not_a_disk = Some("closed".to_owned());
+    assert!(markdown::render(&league).contains("Refused: not a disk (closed)."));
+    assert_eq!(league.verdict(), Ok(()));
+}
+
+fn independent(measures: &Measures, rounding: f64) -> Independent {
+    let mut value = serde_json::to_value(measures).expect("plain data");
+    value["torn_quads"] = 0.into();
+    value["rounding"] = serde_json::json!({ "angle_error": rounding });
+    serde_json::from_value(value).expect("the script's form")
+}
+
+/// The tolerance is 1e-6, and ten times the rounding where a double holds less than that; counts have none.
+#[test]
+fn disagreement_of_the_measurers_fails_the_task() {
+    let ours = measures(2.0);
+    let script = |angle: f64, rounding: f64| independent(&measures(angle), rounding);
+    assert!(agreement::disagreements(&ours, &script(2.0 + 1e-6, 0.0)).is_empty());
+    assert_eq!(agreement::disagreements(&ours, &script(2.0 + 1e-5, 0.0)).len(), 1);
+    assert!(agreement::disagreements(&ours, &script(2.0 + 1e-5, 1e-6)).is_empty());
+    assert_eq!(agreement::disagreements(&ours, &script(f64::INFINITY.min(1e300), 0.0)).len(), 1);
+    let mut other = measures(2.0);
+    other.flipped_corners = 1;
+    other.symmetric_dirichlet = None;
+    let found = agreement::disagreements(&ours, &independent(&other, 0.0));
+    assert_eq!(found.len(), 2, "{found:?}");
+
+    let mut league = league(vec![row("qparam-paper", figures(measures(2.0)))]);
+    league.meshes[0].disagreements = found;
+    assert!(league.verdict().is_err());
+    assert!(markdown::render(&league).contains("**Disagreement**"));
+}
+
+#[test]
+fn order_alternates() {
+    assert_eq!(race::order(3, 0), [0, 1, 2]);
+    assert_eq!(race::order(3, 1), [2, 1, 0]);
+    assert_eq!(race::order(3, 2), [0, 1, 2]);
+}
+
+/// The list of methods comes from the help, however it is wrapped, so that a new method takes part by itself.
+#[test]
+fn methods_are_read_from_the_help() {
+    let help = "Method:\n      --method <METHOD>\n          Which way to a map [default: paper] [possible values: paper,\n\
+                          uniform, mean-value]\n      --q <0..1>  dial [default: 0.5]\n";
+    let (methods, default) = ours::methods(help).expect("listed");
+    assert_eq!(methods, ["paper", "uniform", "mean-value"]);
+    assert_eq!(default, "paper");
+    assert_eq!(ours::methods("Usage: qparam unwrap [OPTIONS]"), None);
+}
+
+#[test]
+fn complaints_are_one_line() {
+    let traceback = "noise\nTraceback (most recent call last):\n  File \"x.py\", line 1\n    boom()\nValueError: no\nbye\n";
+    assert_eq!(shell::complaint(traceback).as_deref(), Some("ValueError: no"));
+    assert_eq!(
+        shell::complaint("\nnote\nerror: not a disk\n  help: cut\n").as_deref(),
+        Some("error: not a disk")
+    );
+    assert_eq!(shell::complaint("something else\nmore").as_deref(), Some("something else"));
+    assert_eq!(shell::complaint("\n \n"), None);
+}
+
+#[test]
+fn machine_fields() {
+    let text = "processor\t: 0\nmodel name\t: Model X @ 2: fast\nmodel name\t: again\n";
+    assert_eq!(machine::field(text, "model name").as_deref(), Some("Model X @ 2: fast"));
+    assert_eq!(machine::field(text, "MemTotal"), None);
+}
+
+/// The script that checks `qparam measure` is itself held by maps whose measures are known on paper.
+#[test]
+fn independent_script_passes_its_own_test() {
+    let places = super::places::Places::new().expect("target/ can be written");
+    let pythons = [places.venv.join("bin/python"), "python3".into()];
+    let has_numpy = |python: &std::path::PathBuf| {
+        shell::output(Command::new(python).args(["-c", "import numpy"])).is_ok()
+    };
+    let Some(python) = pythons.iter().find(|python| has_numpy(python)) else {
+        println!("skipped: there is no python3 with numpy");
+        return;
+    };
+    let mut command = Command::new(python);
+    command.arg("test_measure.py").current_dir(&places.scripts).envs(places.install_environment());
+    let output = command.output().expect("python runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}

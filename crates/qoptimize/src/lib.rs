@@ -1,8 +1,11 @@
 //! Good maps: overlap removal, measures, the whole way in one call.
 
+pub mod distortion;
+
+pub use distortion::{Benchmark, Distortion, MeasureError, measure};
 pub use qembed::{self, qcurv, qmesh, qsimplify, qsolve};
 use qembed::{BoundaryShape, Mixing, StageSolve, Weights};
-use qmesh::{CornerData, Observer, PolygonView, QuadMesh, Vec2, VertexData};
+use qmesh::{CornerData, Observer, QuadMesh, Vec2, VertexData};
 use qsimplify::SimplifyOptions;
 use qsolve::SolveOptions;
 
@@ -65,107 +68,6 @@ pub fn remove_overlaps(
     _observer: &dyn Observer,
 ) -> Result<OverlapReport, ParameterizeError> {
     unimplemented!()
-}
-
-/// Every measure of a UV map. Means over corners are plain means unless said.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub struct Distortion {
-    /// Faces measured.
-    pub faces: usize,
-    /// Corners measured.
-    pub corners: usize,
-    /// Pieces that are connected in the plane.
-    pub islands: usize,
-    /// Islands of negative total area, mirrored before they were measured.
-    pub mirrored_islands: usize,
-    /// Eq. 13: Σ (θ/φ − 1)² over the corners.
-    pub angle_error: f64,
-    /// Eq. 13 divided by the number of corners.
-    pub angle_error_mean: f64,
-    /// Root mean square of θ − φ, in degrees.
-    pub angle_rms_degrees: f64,
-    /// Eq. 14: Σ (A(T)/A(U) − 1)² over the corner triangles; signed areas, total areas made equal.
-    pub area_error: f64,
-    /// Eq. 14 divided by the number of corner triangles.
-    pub area_error_mean: f64,
-    /// Eq. 14 at the scale of U that makes it smallest.
-    pub area_error_best_scale: f64,
-    /// Area-weighted mean of (s1² + s2² + s1⁻² + s2⁻²)/4; 1 for an isometry. Unflipped corner triangles only.
-    pub symmetric_dirichlet: f64,
-    /// Its largest value.
-    pub symmetric_dirichlet_max: f64,
-    /// Area-weighted mean of (s1/s2 + s2/s1)/2; 1 where conformal.
-    pub mips: f64,
-    /// Area-weighted mean of s1/s2.
-    pub singular_ratio_mean: f64,
-    /// 99th percentile of s1/s2 over the corners.
-    pub singular_ratio_p99: f64,
-    /// Largest s1/s2.
-    pub singular_ratio_max: f64,
-    /// Sander's L2 stretch.
-    pub stretch_l2: f64,
-    /// Sander's L∞ stretch.
-    pub stretch_linf: f64,
-    /// Corner triangles of no positive area.
-    pub flipped_corners: usize,
-    /// Faces with a flipped corner.
-    pub flipped_faces: usize,
-    /// Quads of which neither diagonal gives two positive triangles; triangles and n-gons of no positive area.
-    pub folded_faces: usize,
-    /// Pairs of boundary edges of one island that meet though they share no vertex.
-    pub boundary_crossings: usize,
-    /// The measures of the Shay-Solomon-Stein benchmark under their names.
-    pub benchmark: Benchmark,
-}
-
-/// The measures of the benchmark of Shay, Solomon and Stein (2022), computed on fans of triangles as theirs.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub struct Benchmark {
-    /// max (A_uv/A + A/A_uv) − 2.
-    pub max_area_distortion: f64,
-    /// Σ |A_uv − A|, both total 1.
-    pub average_area_discrepancy: f64,
-    /// Smallest singular value.
-    pub min_singular_value: f64,
-    /// Largest singular value.
-    pub max_singular_value: f64,
-    /// Share of triangles with negative area.
-    pub proportion_flipped_triangles: f64,
-    /// max (σ1/σ2 + σ2/σ1) − 2.
-    pub max_angle_distortion: f64,
-    /// Area-weighted sum of |change of corner angle|.
-    pub average_angle_discrepancy: f64,
-    /// max 1/σ with the UVs fitted to the unit square.
-    pub resolution: f64,
-    /// Symmetric Dirichlet energy with the factor ½: 2 for an isometry.
-    pub symmetric_dirichlet_energy: f64,
-}
-
-/// Measures the UVs of polygons, whoever made them. One UV per corner.
-///
-/// # Errors
-/// UVs that are not finite, or of no area at all.
-pub fn measure(_polygons: PolygonView<'_>, _corner_uv: &[Vec2]) -> Result<Distortion, MeasureError> {
-    unimplemented!()
-}
-
-/// Why UVs cannot be measured.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum MeasureError {
-    /// A coordinate is not finite.
-    #[error("corner {corner} of the faces has a UV that is not finite")]
-    NonFinite {
-        /// The corner.
-        corner: usize,
-    },
-    /// Nothing to scale by.
-    #[error("the UVs cover no area")]
-    NoArea,
 }
 
 /// Which way to a map.

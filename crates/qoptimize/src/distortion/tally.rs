@@ -1,0 +1,283 @@
+//! The measures of this crate, summed over the corners.
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use super::corners::{Corner, Stretch, Surface};
+
+/// UV angles below this (radians) count as this.
+const ANGLE_CLAMP: f64 = 1e-9;
+/// UV areas below this fraction of the mean count as this.
+const AREA_CLAMP: f64 = 1e-12;
+/// Corner triangles below this fraction of the mean area in space have no measurable stretch.
+const DEGENERATE: f64 = 1e-14;
+/// Squares of stretches are cut off here, so that their sums stay finite.
+const STRETCH_LIMIT: f64 = 1e150;
+
+/// A corner triangle's share of its face's area: a quad's four cover it twice, a triangle's three are the same.
+fn face_weight(degree: usize) -> f64 {
+    match degree {
+        3 => 1.0 / 3.0,
+        4 => 0.5,
+        n => 1.0 / n.saturating_sub(2).max(1) as f64,
+    }
+}
+
+/// Areas of a run of faces, before anything is scaled.
+#[derive(Default)]
+pub(super) struct Areas {
+    /// Weighted corner areas in space.
+    pub(super) space: f64,
+    /// The same in the plane, unsigned.
+    pub(super) plane: f64,
+    /// Plain sum of unsigned corner areas in the plane.
+    pub(super) corners: f64,
+    /// Signed area of each face in the plane.
+    pub(super) faces: Vec<f64>,
+}
+
+impl Areas {
+    pub(super) fn of(surface: &Surface<'_>, faces: Range<usize>) -> Self {
+        let mut areas = Self::default();
+        for face in faces {
+            let range = surface.polygons.corners(face);
+            let weight = face_weight(range.len());
+            for index in range.clone() {
+                let corner = surface.corner(&range, index);
+                areas.space += weight * corner.space_area;
+                areas.plane += weight * corner.plane_area.abs();
+                areas.corners += corner.plane_area.abs();
+            }
+            areas.faces.push(surface.signed_area(&range));
+        }
+        areas
+    }
+
+    pub(super) fn append(&mut self, mut other: Self) {
+        self.space += other.space;
+        self.plane += other.plane;
+        self.corners += other.corners;
+        self.faces.append(&mut other.faces);
+    }
+}
+
+/// What all corners are measured against.
+pub(super) struct Frame<'a> {
+    pub(super) surface: Surface<'a>,
+    /// Lengths in the plane are multiplied with this, so that both surfaces have one area.
+    pub(super) scale: f64,
+    /// Smallest unsigned corner area in the plane, after scaling.
+    pub(super) least_plane_area: f64,
+    /// Smallest corner area in space whose stretch is measured.
+    pub(super) least_space_area: f64,
+    /// −1 for the faces of mirrored islands, 1 for the others.
+    pub(super) mirror: &'a (dyn Fn(usize) -> f64 + Sync),
+}
+
+impl<'a> Frame<'a> {
+    pub(super) fn new(
+        surface: Surface<'a>,
+        areas: &Areas,
+        mirror: &'a (dyn Fn(usize) -> f64 + Sync),
+    ) -> Self {
+        let corners = surface.uv.len() as f64;
+        let scale = (areas.space / areas.plane).sqrt();
+        Self {
+            surface,
+            scale,
+            least_plane_area: AREA_CLAMP * scale * scale * areas.corners / corners,
+            least_space_area: DEGENERATE * areas.space / corners,
+            mirror,
+        }
+    }
+}
+
+/// Sums over a run of faces.
+#[derive(Default)]
+pub(super) struct Tally {
+    /// The terms of Eq. 13, one per corner.
+    pub(super) angle_terms: Vec<f64>,
+    /// `A(T)/A(U)` of Eq. 14, one per corner.
+    pub(super) area_ratios: Vec<f64>,
+    /// `s1/s2` of the corners that are not flipped.
+    pub(super) singular_ratios: Vec<f64>,
+    pub(super) angle_symmetric: f64,
+    pub(super) angle_squares: f64,
+    pub(super) angle_clamped: usize,
+    pub(super) area_symmetric: f64,
+    pub(super) area_positive: usize,
+    pub(super) area_clamped: usize,
+    /// Area of the corners that are not flipped.
+    pub(super) positive_weight: f64,
+    pub(super) symmetric_dirichlet: f64,
+    pub(super) symmetric_dirichlet_max: f64,
+    pub(super) mips: f64,
+    pub(super) arap: f64,
+    pub(super) singular_ratio: f64,
+    pub(super) stretch_weight: f64,
+    pub(super) stretch_squares: f64,
+    pub(super) stretch_max: f64,
+    pub(super) flipped_corners: usize,
+    pub(super) newly_flipped_corners: usize,
+    pub(super) concave_corners: usize,
+    pub(super) flipped_faces: usize,
+    pub(super) folded_faces: usize,
+    pub(super) negative_faces: usize,
+    pub(super) wound_faces: usize,
+}
+
+impl Tally {
+    pub(super) fn of(frame: &Frame<'_>, faces: Range<usize>, signed_areas: &[f64]) -> Self {
+        let mut tally = Self::default();
+        for face in faces {
+            tally.add_face(frame, face, signed_areas[face]);
+        }
+        tally
+    }
+
+    fn add_face(&mut self, frame: &Frame<'_>, face: usize, signed_area: f64) {
+        let range = frame.surface.polygons.corners(face);
+        let mirror = (frame.mirror)(face);
+        let weight = face_weight(range.len());
+        let corners: Vec<Corner> = range.clone().map(|corner| frame.surface.corner(&range, corner)).collect();
+        let normal = corners.iter().map(|corner| corner.normal).sum();
+        // Whether a corner is flipped, for those at even and at odd places: a quad's two pairs are its two diagonals.
+        let mut flipped = [false; 2];
+        for (place, corner) in corners.iter().enumerate() {
+            let is_flipped = corner.plane_area * mirror <= 0.0;
+            let is_concave = corner.normal.dot(&normal) <= 0.0;
+            flipped[place % 2] |= is_flipped;
+            self.flipped_corners += usize::from(is_flipped);
+            self.concave_corners += usize::from(is_concave);
+            self.newly_flipped_corners += usize::from(is_flipped && !is_concave);
+            self.add_angle(corner, mirror);
+            self.add_area(frame, corner, mirror);
+            self.add_stretch(frame, corner, mirror, weight, is_flipped);
+        }
+        let any_flipped = flipped[0] || flipped[1];
+        let is_negative = signed_area * mirror <= 0.0;
+        self.flipped_faces += usize::from(any_flipped);
+        self.negative_faces += usize::from(is_negative);
+        self.folded_faces += usize::from(match range.len() {
+            4 => flipped[0] && flipped[1],
+            3 => any_flipped,
+            _ => is_negative,
+        });
+        self.wound_faces += usize::from(!any_flipped && winds_more_than_once(&corners));
+    }
+
+    /// Eq. 13.
+    fn add_angle(&mut self, corner: &Corner, mirror: f64) {
+        let theta = (2.0 * corner.space_area).atan2(corner.space[0].dot(&corner.space[1]));
+        let [next, previous] = corner.plane;
+        let mut phi = (2.0 * corner.plane_area * mirror).atan2(next.dot(&previous));
+        if phi < 0.0 {
+            phi += TAU;
+        }
+        if next.norm_squared() == 0.0 || previous.norm_squared() == 0.0 {
+            phi = 0.0;
+        }
+        self.angle_clamped += usize::from(phi < ANGLE_CLAMP);
+        self.angle_squares += (theta - phi).powi(2);
+        let divisor = phi.max(ANGLE_CLAMP);
+        self.angle_terms.push((theta / divisor - 1.0).powi(2));
+        let ratio = theta.max(ANGLE_CLAMP) / divisor;
+        self.angle_symmetric += (ratio.max(1.0 / ratio) - 1.0).powi(2);
+    }
+
+    /// Eq. 14.
+    fn add_area(&mut self, frame: &Frame<'_>, corner: &Corner, mirror: f64) {
+        let least = frame.least_plane_area;
+        let area = corner.plane_area * mirror * frame.scale * frame.scale;
+        let clamped = match area {
+            _ if area.abs() >= least => area,
+            _ if area < 0.0 => -least,
+            _ => least,
+        };
+        self.area_clamped += usize::from(area.abs() < least);
+        let ratio = corner.space_area / clamped;
+        self.area_ratios.push(ratio);
+        if area >= least && corner.space_area > 0.0 {
+            self.area_positive += 1;
+            self.area_symmetric += (ratio.max(1.0 / ratio) - 1.0).powi(2);
+        }
+    }
+
+    fn add_stretch(
+        &mut self,
+        frame: &Frame<'_>,
+        corner: &Corner,
+        mirror: f64,
+        weight: f64,
+        is_flipped: bool,
+    ) {
+        if corner.space_area <= frame.least_space_area {
+            return;
+        }
+        let plane = corner.plane.map(|edge| edge * frame.scale);
+        let stretch = Stretch::of(corner.space, corner.space_area, plane, mirror);
+        let (s1, s2) = (stretch.large, stretch.small);
+        let squared = stretch.determinant * stretch.determinant;
+        let weight = weight * corner.space_area;
+        // Sander et al. 2001: the root mean square and the largest of the singular values of the inverse map.
+        let inverse_squares = stretch.frobenius / squared.max(1e-300) / 2.0;
+        self.stretch_weight += weight;
+        self.stretch_squares += weight * inverse_squares.min(STRETCH_LIMIT * STRETCH_LIMIT);
+        self.stretch_max = self.stretch_max.max(1.0 / s2.max(1.0 / STRETCH_LIMIT));
+        if is_flipped || stretch.determinant <= 0.0 {
+            return;
+        }
+        let dirichlet = (stretch.frobenius + stretch.frobenius / squared) / 4.0;
+        self.positive_weight += weight;
+        self.symmetric_dirichlet += weight * dirichlet;
+        self.symmetric_dirichlet_max = self.symmetric_dirichlet_max.max(dirichlet);
+        self.mips += weight * f64::midpoint(s1 / s2, s2 / s1);
+        self.arap += weight * ((s1 - 1.0).powi(2) + (s2 - 1.0).powi(2));
+        self.singular_ratio += weight * s1 / s2;
+        self.singular_ratios.push(s1 / s2);
+    }
+
+    pub(super) fn append(&mut self, mut other: Self) {
+        self.angle_terms.append(&mut other.angle_terms);
+        self.area_ratios.append(&mut other.area_ratios);
+        self.singular_ratios.append(&mut other.singular_ratios);
+        self.angle_symmetric += other.angle_symmetric;
+        self.angle_squares += other.angle_squares;
+        self.angle_clamped += other.angle_clamped;
+        self.area_symmetric += other.area_symmetric;
+        self.area_positive += other.area_positive;
+        self.area_clamped += other.area_clamped;
+        self.positive_weight += other.positive_weight;
+        self.symmetric_dirichlet += other.symmetric_dirichlet;
+        self.symmetric_dirichlet_max = self.symmetric_dirichlet_max.max(other.symmetric_dirichlet_max);
+        self.mips += other.mips;
+        self.arap += other.arap;
+        self.singular_ratio += other.singular_ratio;
+        self.stretch_weight += other.stretch_weight;
+        self.stretch_squares += other.stretch_squares;
+        self.stretch_max = self.stretch_max.max(other.stretch_max);
+        self.flipped_corners += other.flipped_corners;
+        self.newly_flipped_corners += other.newly_flipped_corners;
+        self.concave_corners += other.concave_corners;
+        self.flipped_faces += other.flipped_faces;
+        self.folded_faces += other.folded_faces;
+        self.negative_faces += other.negative_faces;
+        self.wound_faces += other.wound_faces;
+    }
+}
+
+/// Whether a polygon that turns the same way at every corner does so through more than one full turn, like a pentagram.
+///
+/// A full turn passes from pointing down to pointing up exactly once. Below five corners, each turning by less than
+/// half a turn, there is not enough for two.
+fn winds_more_than_once(corners: &[Corner]) -> bool {
+    if corners.len() < 5 {
+        return false;
+    }
+    let points_up = |corner: &Corner| {
+        let edge = corner.plane[0];
+        edge.y > 0.0 || (edge.y == 0.0 && edge.x > 0.0)
+    };
+    let up: Vec<bool> = corners.iter().map(points_up).collect();
+    (0..up.len()).filter(|&i| !up[i] && up[(i + 1) % up.len()]).count() > 1
+}

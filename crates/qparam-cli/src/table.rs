@@ -59,8 +59,9 @@ fn width(text: &str) -> usize {
     text.chars().count()
 }
 
-/// Four significant digits; scientific where that is shorter.
-pub(crate) fn short(value: f64) -> String {
+/// Four significant digits; scientific where that is shorter; a dash where there is no value.
+pub(crate) fn short(value: impl Into<Option<f64>>) -> String {
+    let Some(value) = value.into() else { return "-".to_owned() };
     let magnitude = value.abs();
     if !value.is_finite() {
         return value.to_string();

@@ -88,15 +88,14 @@ fn sums(surface: &Surface<'_>, faces: Range<usize>, space: f64, plane: f64) -> S
         let [a, b, c] = triangle.space;
         let [p, q, r] = triangle.plane;
         let edges = [(b - a) * space, (c - a) * space];
-        let stretch = Stretch::of(edges, area, [(q - p) * plane, (r - p) * plane], 1.0);
+        let stretch = Stretch::of(edges, area, [(q - p) * plane, (r - p) * plane], plane_area);
         let (s1, s2) = (stretch.large, stretch.small);
         sums.triangles += 1;
         sums.flipped += usize::from(triangle.turn < 0.0);
         sums.area_ratio = sums.area_ratio.max(plane_area / area + area / plane_area);
         sums.smallest = Some(sums.smallest.map_or(s2, |s| s.min(s2)));
         sums.largest = sums.largest.max(s1);
-        sums.angle_ratio =
-            sums.angle_ratio.max(if s2 > 0.0 { s1 / s2 + s2 / s1 } else { f64::INFINITY });
+        sums.angle_ratio = sums.angle_ratio.max(if s2 > 0.0 { s1 / s2 + s2 / s1 } else { f64::INFINITY });
         sums.angle_difference += area * angle_difference(&triangle);
         sums.dirichlet += area * 0.5 * (s1 * s1 + s2 * s2 + 1.0 / (s1 * s1) + 1.0 / (s2 * s2));
     }
@@ -110,7 +109,8 @@ fn angle_difference(triangle: &Triangle) -> f64 {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
             let [a, b] = [j, k].map(|other| triangle.space[other] - triangle.space[i]);
             let [p, q] = [j, k].map(|other| triangle.plane[other] - triangle.plane[i]);
-            let sides = [a.norm(), b.norm(), p.norm(), q.norm(), (triangle.plane[j] - triangle.plane[k]).norm()];
+            let sides =
+                [a.norm(), b.norm(), p.norm(), q.norm(), (triangle.plane[j] - triangle.plane[k]).norm()];
             if sides.contains(&0.0) {
                 return TAU;
             }

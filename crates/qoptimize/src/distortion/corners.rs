@@ -93,7 +93,7 @@ fn scale_for(largest: f64) -> f64 {
     (-largest.log2().floor()).clamp(-1000.0, 1000.0).exp2()
 }
 
-/// What a positive affine map of a triangle does to lengths.
+/// What the affine map of a triangle does to lengths.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch {
     /// Larger singular value.
@@ -107,19 +107,20 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
-    /// Of the map that takes the `space` edges of a triangle to the `plane` ones, of which `determinant_sign` mirrors.
-    pub(super) fn of(space: [Vec3; 2], space_area: f64, plane: [Vec2; 2], mirror: f64) -> Self {
+    /// Of the map that takes the `space` edges of a triangle to the `plane` ones. The areas are given too, because
+    /// their ratio is the determinant, and the sign of an area in the plane is exact.
+    pub(super) fn of(space: [Vec3; 2], space_area: f64, plane: [Vec2; 2], plane_area: f64) -> Self {
         let length = space[0].norm();
         let (x, y) = (space[0].dot(&space[1]) / length, 2.0 * space_area / length);
         let first = plane[0] / length;
         let second = (plane[1] - first * x) / y;
-        // The sum and the difference of the singular values, without cancellation in either.
+        // The sum and the difference of the singular values, or the other way round where the map flips.
         let sum = (first.x + second.y).hypot(first.y - second.x);
         let difference = (first.x - second.y).hypot(first.y + second.x);
-        let determinant = first.perp(&second);
+        let determinant = plane_area / space_area;
         let large = f64::midpoint(sum, difference);
         let small = if large > 0.0 { determinant.abs() / large } else { 0.0 };
         let frobenius = first.norm_squared() + second.norm_squared();
-        Self { large, small, frobenius, determinant: determinant * mirror }
+        Self { large, small, frobenius, determinant }
     }
 }

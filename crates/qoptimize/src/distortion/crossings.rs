@@ -3,6 +3,8 @@
 //! Broad phase: one tree of bounding boxes per island, split at the median, so unequal edge lengths (the rule on free
 //! boundaries) cost nothing. Narrow phase: exact predicates; touching counts.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use rayon::prelude::*;
 use robust::{Coord, orient2d};
 
@@ -37,12 +39,14 @@ pub(super) fn count_crossings(mut segments: Vec<Segment>) -> Crossings {
     segments.sort_by_key(|segment| segment.island);
     let total = segments.len().max(1) as u64;
     let islands: Vec<&[Segment]> = segments.chunk_by(|a, b| a.island == b.island).collect();
+    // All that were met so far, anywhere. Whether it reaches the limit does not depend on who counts first.
+    let met = AtomicUsize::new(0);
     let found: Vec<Crossings> = islands
         .par_iter()
         .map(|&island| {
             // Small islands are always finished: brute force on 2¹⁰ edges is no work.
             let share = u128::from(WORK_LIMIT) * island.len() as u128 / u128::from(total);
-            Tree::new(island).count((share as u64).max(1 << 20))
+            Tree::new(island).count((share as u64).max(1 << 20), &met)
         })
         .collect();
     sum(&found)
@@ -134,7 +138,7 @@ impl Tree {
     }
 
     /// Work is divided into a fixed list of tasks, so that where a limit strikes does not depend on threads.
-    fn count(&self, work: u64) -> Crossings {
+    fn count(&self, work: u64, met: &AtomicUsize) -> Crossings {
         const TASKS: usize = 128;
         if self.nodes.is_empty() {
             return Crossings { count: 0, complete: true };
@@ -144,14 +148,15 @@ impl Tree {
             if tasks.len() >= TASKS {
                 break;
             }
-let mut finer = Vec::with_capacity(3 * tasks.len());
+            let mut finer = Vec::with_capacity(3 * tasks.len());
             for &pair in &tasks {
                 self.refine(pair, &mut finer);
             }
             tasks = finer;
         }
         let share = work / tasks.len().max(1) as u64;
-        let found: Vec<Crossings> = tasks.par_iter().map(|&pair| self.count_below(pair, share)).collect();
+        let found: Vec<Crossings> =
+            tasks.par_iter().map(|&pair| self.count_below(pair, share, met)).collect();
         sum(&found)
     }
 
@@ -182,16 +187,20 @@ let mut finer = Vec::with_capacity(3 * tasks.len());
         self.nodes[node].end - self.nodes[node].start
     }
 
-    fn count_below(&self, pair: (usize, usize), mut work: u64) -> Crossings {
+    fn count_below(&self, pair: (usize, usize), mut work: u64, met: &AtomicUsize) -> Crossings {
         let mut stack = vec![pair];
         let mut count = 0;
         while let Some((a, b)) = stack.pop() {
-            if work == 0 || count >= CROSSING_LIMIT {
+            if work == 0 || met.load(Ordering::Relaxed) >= CROSSING_LIMIT {
                 return Crossings { count, complete: false };
             }
             work -= 1;
             if self.nodes[a].second == 0 && self.nodes[b].second == 0 {
-                count += self.count_leaves(a, b);
+                let here = self.count_leaves(a, b);
+                if here > 0 {
+                    met.fetch_add(here, Ordering::Relaxed);
+                    count += here;
+                }
             } else {
                 self.refine((a, b), &mut stack);
             }
@@ -256,7 +265,10 @@ mod tests {
             for (i, segment) in segments.iter_mut().enumerate() {
                 segment.island = u32::from(i * 3 > n);
             }
-            assert_eq!(count_crossings(segments.clone()), Crossings { count: brute(&segments), complete: true });
+            assert_eq!(
+                count_crossings(segments.clone()),
+                Crossings { count: brute(&segments), complete: true }
+            );
         }
     }
 

@@ -8,7 +8,10 @@ use rayon::prelude::*;
 /// have the same bits.
 pub(super) fn by_runs<T: Send>(faces: usize, part: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
     const RUN: usize = 4096;
-    (0..faces.div_ceil(RUN)).into_par_iter().map(|run| part(run * RUN..((run + 1) * RUN).min(faces))).collect()
+    (0..faces.div_ceil(RUN))
+        .into_par_iter()
+        .map(|run| part(run * RUN..((run + 1) * RUN).min(faces)))
+        .collect()
 }
 
 /// The `fraction`-quantile, linear between neighbours (definition 7 of Hyndman and Fan 1996, NumPy's default).

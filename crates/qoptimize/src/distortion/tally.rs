@@ -64,6 +64,8 @@ impl Areas {
 /// What all corners are measured against.
 pub(super) struct Frame<'a> {
     pub(super) surface: Surface<'a>,
+    /// Area in space.
+    pub(super) space_area: f64,
     /// Lengths in the plane are multiplied with this, so that both surfaces have one area.
     pub(super) scale: f64,
     /// Smallest unsigned corner area in the plane, after scaling.
@@ -84,6 +86,7 @@ impl<'a> Frame<'a> {
         let scale = (areas.space / areas.plane).sqrt();
         Self {
             surface,
+            space_area: areas.space,
             scale,
             least_plane_area: AREA_CLAMP * scale * scale * areas.corners / corners,
             least_space_area: DEGENERATE * areas.space / corners,
@@ -107,7 +110,7 @@ pub(super) struct Tally {
     pub(super) area_symmetric: f64,
     pub(super) area_positive: usize,
     pub(super) area_clamped: usize,
-    /// Area of the corners that are not flipped.
+    /// Share of the area of the corners that are not flipped.
     pub(super) positive_weight: f64,
     pub(super) symmetric_dirichlet: f64,
     pub(super) symmetric_dirichlet_max: f64,
@@ -152,7 +155,7 @@ impl Tally {
             self.newly_flipped_corners += usize::from(is_flipped && !is_concave);
             self.add_angle(corner, mirror);
             self.add_area(frame, corner, mirror);
-            self.add_stretch(frame, corner, mirror, weight, is_flipped);
+            self.add_stretch(frame, corner, mirror, weight);
         }
         let any_flipped = flipped[0] || flipped[1];
         let is_negative = signed_area * mirror <= 0.0;
@@ -203,28 +206,23 @@ impl Tally {
         }
     }
 
-    fn add_stretch(
-        &mut self,
-        frame: &Frame<'_>,
-        corner: &Corner,
-        mirror: f64,
-        weight: f64,
-        is_flipped: bool,
-    ) {
+    fn add_stretch(&mut self, frame: &Frame<'_>, corner: &Corner, mirror: f64, weight: f64) {
         if corner.space_area <= frame.least_space_area {
             return;
         }
         let plane = corner.plane.map(|edge| edge * frame.scale);
-        let stretch = Stretch::of(corner.space, corner.space_area, plane, mirror);
+        let plane_area = corner.plane_area * mirror * frame.scale * frame.scale;
+        let stretch = Stretch::of(corner.space, corner.space_area, plane, plane_area);
         let (s1, s2) = (stretch.large, stretch.small);
         let squared = stretch.determinant * stretch.determinant;
-        let weight = weight * corner.space_area;
+        // Shares of the whole, so that sums of stretches at their limit stay finite.
+        let weight = weight * (corner.space_area / frame.space_area);
         // Sander et al. 2001: the root mean square and the largest of the singular values of the inverse map.
         let inverse_squares = stretch.frobenius / squared.max(1e-300) / 2.0;
         self.stretch_weight += weight;
         self.stretch_squares += weight * inverse_squares.min(STRETCH_LIMIT * STRETCH_LIMIT);
         self.stretch_max = self.stretch_max.max(1.0 / s2.max(1.0 / STRETCH_LIMIT));
-        if is_flipped || stretch.determinant <= 0.0 {
+        if stretch.determinant <= 0.0 {
             return;
         }
         let dirichlet = (stretch.frobenius + stretch.frobenius / squared) / 4.0;

@@ -1,0 +1,250 @@
+//! The whole way, one call: check, simplify, embed, remove overlaps, measure.
+
+use std::borrow::Cow;
+use std::ops::ControlFlow;
+
+use qembed::qmesh::{CornerData, Observer, QuadMesh, Vec2, VertexData};
+use qembed::qsimplify::{SimplifyOptions, simplify};
+use qembed::qsolve::SolveOptions;
+use qembed::{
+    BoundaryShape, Classic, EmbedOptions, Embedding, Mixing, StageSolve, Weights, embed, embed_classic,
+};
+
+use crate::distortion::{Distortion, measure};
+use crate::error::ParameterizeError;
+use crate::overlap::{OverlapOptions, OverlapReport, remove_overlaps};
+
+/// Which way to a map.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
+pub enum Method {
+    /// The paper's stages.
+    #[default]
+    Paper,
+    /// Tutte 1963.
+    Uniform,
+    /// Floater 2003.
+    MeanValue,
+    /// Eck et al. 1995.
+    Harmonic,
+    /// Lévy et al. 2002.
+    Lscm,
+}
+
+/// Everything that can be chosen.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
+pub struct Options {
+    /// Default `Paper`.
+    pub method: Method,
+    /// 1 angle-true (conformal), 0 area-true (authalic). Default 0.5.
+    pub q: f64,
+    /// Default `Circle`.
+    pub boundary: BoundaryShape,
+    /// Section 2.1.
+    pub simplify: SimplifyOptions,
+    /// `r` of Eq. 5. Default 1.
+    pub exponent: f64,
+    /// Weights of Eqs. 6 and 8. Default `Star4`.
+    pub weights: Weights,
+    /// How Eq. 10 mixes. Default `RowNormalized`.
+    pub mixing: Mixing,
+    /// Section 2.4; `None` leaves overlaps as they are. Classic methods always do: they are there to compare with.
+    pub overlaps: Option<OverlapOptions>,
+    /// How linear systems are solved.
+    pub solve: SolveOptions,
+    /// Whether the UVs are moved and scaled so that their bounding box starts at 0 and its longer side is 1. Default true;
+    /// not done for `BoundaryShape::Fixed`.
+    pub normalize: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            method: Method::default(),
+            q: 0.5,
+            boundary: BoundaryShape::default(),
+            simplify: SimplifyOptions::default(),
+            exponent: 1.0,
+            weights: Weights::default(),
+            mixing: Mixing::default(),
+            overlaps: Some(OverlapOptions::default()),
+            solve: SolveOptions::default(),
+            normalize: true,
+        }
+    }
+}
+
+/// A map with its measures and the record of how it came about.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Parameterization {
+    /// One UV per corner.
+    pub uv: CornerData<Vec2>,
+    /// How good it is.
+    pub distortion: Distortion,
+    /// How it came about.
+    pub record: RunRecord,
+}
+
+/// What ran, with which reading of the paper, and what it met.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct RunRecord {
+    /// Interior vertices before simplification.
+    pub interior_vertices: usize,
+    /// Interior vertices on the removed side of the threshold.
+    pub removal_candidates: usize,
+    /// Vertices removed by section 2.1 (0 for classic methods).
+    pub removed_vertices: usize,
+    /// Kept vertices that were cut off from the boundary.
+    pub cut_off_vertices: usize,
+    /// Negative weights that were met.
+    pub negative_weights: usize,
+    /// The linear systems.
+    pub solves: Vec<StageSolve>,
+    /// Overlap removal, when it ran.
+    pub overlaps: Option<OverlapReport>,
+}
+
+/// The whole way: section 2 of the paper, or a classic baseline, with measures.
+///
+/// The mesh must be a disk. The UVs are one per corner, and equal at all corners of a vertex. The internal unit of
+/// length is a power of two near the size of the mesh, so meshes of any size are mapped alike, except with
+/// [`Mixing::Raw`], whose very point is that it depends on the unit.
+///
+/// Stages that the observer hears of, each from 0 to 1: `"curvature"`, `"simplify"`, `"global"`, `"local"`,
+/// `"overlaps"` and `"measure"` with [`Method::Paper`]; the name of the method and `"measure"` otherwise.
+///
+/// Overlaps may remain: [`Parameterization::distortion`] counts them, and [`Distortion::is_injective`] says whether the
+/// map is proven free of them.
+///
+/// # Errors
+/// What is wrong with the options or why the mesh is no disk; a linear system without an acceptable answer; cancelled
+/// by the observer. See [`ParameterizeError`].
+pub fn parameterize(
+    mesh: &QuadMesh,
+    options: &Options,
+    observer: &dyn Observer,
+) -> Result<Parameterization, ParameterizeError> {
+    options.check()?;
+    ParameterizeError::of_topology(mesh.topology()).map_or(Ok(()), Err)?;
+    let unit_mesh = in_own_unit(mesh, options.mixing);
+    let (mut uv, record) = match options.method {
+        Method::Paper => paper(&unit_mesh, options, observer)?,
+        Method::Uniform => classic(&unit_mesh, Classic::Uniform, options, observer)?,
+        Method::MeanValue => classic(&unit_mesh, Classic::MeanValue, options, observer)?,
+        Method::Harmonic => classic(&unit_mesh, Classic::Harmonic, options, observer)?,
+        Method::Lscm => classic(&unit_mesh, Classic::Lscm, options, observer)?,
+    };
+    let is_placed = options.method != Method::Lscm && matches!(options.boundary, BoundaryShape::Fixed(_));
+    if options.normalize && !is_placed {
+        normalize(&mut uv);
+    }
+    let uv = mesh.to_corners(&uv);
+    watch(observer, 0.0)?;
+    let distortion = measure(mesh.view(), &uv)?;
+    watch(observer, 1.0)?;
+    Ok(Parameterization { uv, distortion, record })
+}
+
+impl Options {
+    fn check(&self) -> Result<(), ParameterizeError> {
+        if !(0.0..=1.0).contains(&self.q) {
+            return Err(ParameterizeError::BadQ(self.q));
+        }
+        if !self.exponent.is_finite() {
+            return Err(ParameterizeError::BadExponent(self.exponent));
+        }
+        self.overlaps.as_ref().map_or(Ok(()), OverlapOptions::check)
+    }
+}
+
+fn watch(observer: &dyn Observer, fraction: f64) -> Result<(), ParameterizeError> {
+    match observer.progress("measure", fraction) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(ParameterizeError::Cancelled),
+    }
+}
+
+/// The mesh with a longest side of its bounding box that is neither huge nor tiny, so that powers of lengths and areas
+/// stay in the range of `f64`. A power of two rounds nothing.
+fn in_own_unit(mesh: &QuadMesh, mixing: Mixing) -> Cow<'_, QuadMesh> {
+    const NEAR_ONE: std::ops::Range<f64> = 1e-3..1e3;
+    let positions = mesh.positions();
+    let low = positions.iter().copied().reduce(|a, b| a.inf(&b));
+    let high = positions.iter().copied().reduce(|a, b| a.sup(&b));
+    let extent = low.zip(high).map_or(0.0, |(low, high)| (high - low).max());
+    if mixing == Mixing::Raw || extent == 0.0 || NEAR_ONE.contains(&extent) {
+        return Cow::Borrowed(mesh);
+    }
+    let factor = (-extent.log2().floor()).clamp(-1000.0, 1000.0).exp2();
+    let scaled = mesh.vertex_data(|vertex| mesh.position(vertex) * factor);
+    Cow::Owned(mesh.clone().with_positions(scaled))
+}
+
+type Placed = (VertexData<Vec2>, RunRecord);
+
+/// Sections 2.1 to 2.4.
+fn paper(mesh: &QuadMesh, options: &Options, observer: &dyn Observer) -> Result<Placed, ParameterizeError> {
+    let simplified = simplify(mesh, &options.simplify, observer)?;
+    let embed_options = EmbedOptions {
+        q: options.q,
+        boundary: options.boundary.clone(),
+        exponent: options.exponent,
+        weights: options.weights,
+        mixing: options.mixing,
+        solve: options.solve,
+    };
+    let mut embedding = embed(mesh, &simplified, &embed_options, observer)?;
+    let overlaps = match &options.overlaps {
+        Some(overlap_options) => Some(remove_overlaps(mesh, &mut embedding.uv, overlap_options, observer)?),
+        None => None,
+    };
+    let mut record = RunRecord::new(mesh, &embedding);
+    record.removal_candidates = simplified.candidates;
+    record.removed_vertices = simplified.removed.len();
+    record.overlaps = overlaps;
+    Ok((embedding.uv, record))
+}
+
+fn classic(
+    mesh: &QuadMesh,
+    method: Classic,
+    options: &Options,
+    observer: &dyn Observer,
+) -> Result<Placed, ParameterizeError> {
+    let embedding = embed_classic(mesh, method, &options.boundary, &options.solve, observer)?;
+    let record = RunRecord::new(mesh, &embedding);
+    Ok((embedding.uv, record))
+}
+
+impl RunRecord {
+    fn new(mesh: &QuadMesh, embedding: &Embedding) -> Self {
+        Self {
+            interior_vertices: mesh.vertices().filter(|&vertex| !mesh.is_boundary(vertex)).count(),
+            removal_candidates: 0,
+            removed_vertices: 0,
+            cut_off_vertices: embedding.cut_off,
+            negative_weights: embedding.negative_weights,
+            solves: embedding.solves.clone(),
+            overlaps: None,
+        }
+    }
+}
+
+/// Moves and scales the UVs so that their bounding box starts at 0 and its longer side is 1.
+fn normalize(uv: &mut VertexData<Vec2>) {
+    let low = uv.iter().copied().reduce(|a, b| a.inf(&b));
+    let high = uv.iter().copied().reduce(|a, b| a.sup(&b));
+    let Some((low, high)) = low.zip(high) else { return };
+    let longer = (high - low).max();
+    // A map onto one point stays as it is: measuring it says so.
+    if longer > 0.0 && longer.is_finite() {
+        uv.iter_mut().for_each(|p| *p = (*p - low) / longer);
+    }
+}

@@ -25,9 +25,14 @@ pub(crate) const EAR_LEAN: f64 = 0.25;
 /// Farther from any origin of a ray than the head is large.
 const REACH: f64 = 2.2;
 
-/// The mesh with every vertex moved along its ray onto the head.
+/// A mesh close to the head, every vertex moved along its ray onto the head.
 pub(crate) fn shrink_wrapped(mesh: QuadMesh) -> QuadMesh {
-    let positions = mesh.positions().par_iter().map(|&target| shrink_wrap(target)).collect();
+    const CLOSE: f64 = 0.15; // the refined cage strays less from the head; all of the reach gives the same mesh, later
+    let wrap = |&target: &Vec3| {
+        let origin = origin(target);
+        cast(head, origin, target, (target - origin).norm() + CLOSE)
+    };
+    let positions = mesh.positions().par_iter().map(wrap).collect();
     mesh.with_positions(VertexData::from_vec(positions))
 }
 
@@ -72,8 +77,9 @@ pub(super) fn origin(target: Vec3) -> Vec3 {
 fn head(p: Vec3) -> f64 {
     let side = Vec3::new(p.x.abs(), p.y, p.z);
     let skin = melt(skull(p, side), neck(p), 0.14);
-    let skin = melt(skin, ear(side), 0.08);
-    mouth(nose(eye(skin, side), p, side), p, side)
+    let skin = if side.x > 0.4 { melt(skin, ear(side), 0.08) } else { skin };
+    // Rays that come from in front have met the face by then; the others pass it far away.
+    if p.z > 0.2 { mouth(nose(eye(skin, side), p, side), p, side) } else { skin }
 }
 
 fn skull(p: Vec3, side: Vec3) -> f64 {

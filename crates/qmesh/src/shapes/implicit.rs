@@ -58,8 +58,9 @@ pub(crate) fn cast(solid: impl Fn(Vec3) -> f64, origin: Vec3, target: Vec3, reac
         (outside, outside_value) = (inside, inside_value);
     }
     // Regula falsi with the Illinois rule: an end that stays put loses half its weight.
+    let mut middle = inside;
     for _ in 0..24 {
-        let middle = outside - (outside - inside) * outside_value / (outside_value - inside_value);
+        middle = outside - (outside - inside) * outside_value / (outside_value - inside_value);
         let middle_value = value(middle);
         if middle_value > 0.0 {
             (outside, outside_value) = (middle, middle_value);
@@ -72,5 +73,5 @@ pub(crate) fn cast(solid: impl Fn(Vec3) -> f64, origin: Vec3, target: Vec3, reac
             break;
         }
     }
-    origin + direction * inside
+    origin + direction * middle
 }

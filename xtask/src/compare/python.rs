@@ -11,8 +11,9 @@ use super::shell;
 /// The interpreter that every pinned package has a wheel for; `bpy` 5.0.1 has none for any other.
 const PYTHON: &str = "3.11";
 
-/// What the scripts themselves need.
+/// What the scripts themselves need; `bpy` wants a numpy below 2, which in turn has no wheels for newer interpreters.
 const SUPPORT: &[&str] = &["numpy==1.26.4", "scipy==1.17.1"];
+const SUPPORT_WITHOUT_BPY: &[&str] = &["numpy==2.4.6", "scipy==1.17.1"];
 
 /// Package, pinned version, prefix of its methods in `rival.py`, how quads reach it.
 const RIVALS: &[(&str, &str, &str, &str)] = &[
@@ -41,19 +42,15 @@ pub(super) struct Package {
 /// Makes the virtual environment and installs what is missing in it.
 pub(super) fn prepare(places: &Places, chosen: Option<&Path>, install: bool) -> Result<Interpreter, String> {
     let program = places.venv.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    if version(&program).is_none() {
-        if !install {
-            return Err("there is no virtual environment yet: run once without --no-install".to_owned());
-        }
-        let base = find(chosen)?;
-        eprintln!("making a virtual environment with {}", base.display());
-        shell::output(Command::new(&base).args(["-m", "venv"]).arg(&places.venv)).map_err(|error| {
-            format!("no virtual environment ({error}); Debian has the module in python3-venv")
-        })?;
+    if install {
+        make(places, &program, chosen)?;
     }
-    let version = version(&program).ok_or("the virtual environment has no working Python")?;
-    for package in SUPPORT {
-        add(places, &program, package, install)?;
+    let version =
+        version(&program).ok_or("there is no virtual environment yet: run once without --no-install")?;
+    for package in support(&version) {
+        add(places, &program, package, install).map_err(|error| {
+            format!("{error} (Python {version}; Python {PYTHON} is known to do, see --python)")
+        })?;
     }
     let packages = RIVALS.iter().map(|&(name, pin, prefix, input)| {
         let installed = add(places, &program, &format!("{name}=={pin}"), install).map_err(|error| {
@@ -65,6 +62,32 @@ pub(super) fn prepare(places: &Places, chosen: Option<&Path>, install: bool) -> 
     Ok(Interpreter { program, version: format!("Python {version}"), packages })
 }
 
+/// A virtual environment of the best interpreter at hand; one of another interpreter is replaced.
+fn make(places: &Places, program: &Path, chosen: Option<&Path>) -> Result<(), String> {
+    let present = version(program);
+    if chosen.is_none() && present.as_deref().is_some_and(is_exact) {
+        return Ok(());
+    }
+    let base = find(chosen)?;
+    if present.is_some() && present == version(&base) {
+        return Ok(());
+    }
+    eprintln!("making a virtual environment with {}", base.display());
+    let mut command = Command::new(&base);
+    command.args(["-m", "venv", "--clear"]).arg(&places.venv).envs(places.install_environment());
+    shell::output(&mut command)
+        .map(drop)
+        .map_err(|error| format!("no virtual environment ({error}); Debian has the module in python3-venv"))
+}
+
+fn is_exact(version: &str) -> bool {
+    version.strip_prefix(PYTHON).is_some_and(|rest| rest.starts_with('.'))
+}
+
+fn support(version: &str) -> &'static [&'static str] {
+    if is_exact(version) { SUPPORT } else { SUPPORT_WITHOUT_BPY }
+}
+
 /// An interpreter for the virtual environment: the wanted version, else any that can at least run the scripts.
 fn find(chosen: Option<&Path>) -> Result<PathBuf, String> {
     if let Some(path) = chosen {
@@ -74,19 +97,18 @@ fn find(chosen: Option<&Path>) -> Result<PathBuf, String> {
     let candidates = [exact, PathBuf::from("python3"), PathBuf::from("python")];
     let versions = candidates.iter().filter_map(|path| Some((path, version(path)?)));
     let mut found: Vec<(&PathBuf, String)> = versions.collect();
-    found.sort_by_key(|(_, version)| !version.starts_with(&format!("{PYTHON}.")));
-    match found.first() {
-        Some((path, version)) if version.starts_with(&format!("{PYTHON}.")) => Ok((*path).clone()),
-        Some((path, version)) => {
-            eprintln!(
-                "Python {PYTHON} was not found (bpy needs it); going on with {version}: some rivals will be absent"
-            );
-            Ok((*path).clone())
-        }
-        None => Err(format!(
+    found.sort_by_key(|(_, version)| !is_exact(version));
+    let Some((path, version)) = found.first() else {
+        return Err(format!(
             "no Python found: install Python {PYTHON} (bpy needs just that), or name it with --python"
-        )),
+        ));
+    };
+    if !is_exact(version) {
+        eprintln!(
+            "Python {PYTHON} was not found (bpy needs it); going on with {version}: some rivals will be absent"
+        );
     }
+    Ok((*path).clone())
 }
 
 /// The full version, `None` when the program does not run.
@@ -117,7 +139,8 @@ fn add(places: &Places, python: &Path, package: &str, install: bool) -> Result<(
         ":all:",
     ]);
     // Without the supporting pins in sight, a rival's dependencies would replace them.
-    command.arg(package).args(SUPPORT).envs(places.install_environment());
+    let version = version(python).unwrap_or_default();
+    command.arg(package).args(support(&version)).envs(places.install_environment());
     shell::output(&mut command).map(drop)
 }
 

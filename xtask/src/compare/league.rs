@@ -105,15 +105,20 @@ impl Measures {
 }
 
 impl League {
-    /// An error when the two measurers disagree anywhere, or when nothing of ours could be measured.
+    /// An error when the two measurers disagree anywhere, or when the method that ratios are taken against failed.
     pub(super) fn verdict(&self) -> Result<(), String> {
-        let told = |mesh: &MeshTable| {
-            mesh.disagreements.iter().map(|text| format!("{}: {text}", mesh.name)).collect::<Vec<_>>()
-        };
-        let disagreements: Vec<String> = self.meshes.iter().flat_map(told).collect();
-        if disagreements.is_empty() {
-            return Ok(());
+        let mut faults = Vec::new();
+        for mesh in &self.meshes {
+            let name = &mesh.name;
+            faults.extend(
+                mesh.disagreements.iter().map(|text| format!("{name}: the measurers disagree: {text}")),
+            );
+            for row in mesh.rows.iter().filter(|row| row.name == self.baseline) {
+                if let Outcome::Failed { message } = &row.outcome {
+                    faults.push(format!("{name}: {} failed: {message}", row.name));
+                }
+            }
         }
-        Err(format!("qparam measure and the independent script disagree:\n  {}", disagreements.join("\n  ")))
+        if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
     }
 }

@@ -46,8 +46,8 @@ fn header(league: &League) -> String {
          - Versions: {}\n\
          - Runs: {} of each method on each mesh, in alternating order, each in a process of its own, ended after {} s; \
          times and memory are medians\n\
-         - In brackets: how many times `{}` (bold), or how many more where that has none; below 1 is better than it in \
-         every column but `islands`, where fewer is less cut, not better\n\n\
+         - In brackets: how many times the figure of `{}` (bold), or how many more where that is 0. Less is better \
+         in every column\n\n\
          Every tool gets the same quad mesh, triangulated as its users do it; its UVs are mapped back to the corners of \
          the quads. **Valid**: no corner flipped, no face folded, no island's boundary crossing itself. **Flipped \
          corners**: of the four triangles that a quad's corners make, those of no positive area. **Folded faces**: quads \

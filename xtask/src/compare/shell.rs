@@ -13,17 +13,15 @@ pub(super) fn output(command: &mut Command) -> Result<String, String> {
         .unwrap_or_else(|| format!("{program}: {}", output.status)))
 }
 
-/// The one line that says what went wrong: a Python traceback ends with it, other tools begin with it.
+/// The one line that says what went wrong: where tools put it, or else the first.
 pub(super) fn complaint(stderr: &str) -> Option<String> {
-    let mut lines = stderr.lines().map(str::trim).filter(|line| !line.is_empty());
-    let line = if stderr.contains("Traceback (most recent call last)") {
-        // Chained lines may follow, such as Blender's own epilogue; the exception is the last one not indented.
-        let start = stderr.find("Traceback").unwrap_or(0);
-        stderr[start..].lines().skip(1).find(|line| !line.starts_with(' ') && !line.trim().is_empty())
-    } else {
-        lines
-            .find(|line| line.to_lowercase().contains("error"))
-            .or_else(|| stderr.lines().map(str::trim).find(|line| !line.is_empty()))
-    };
-    line.map(|line| line.trim().to_owned())
+    let lines: Vec<&str> = stderr.lines().filter(|line| !line.trim().is_empty()).collect();
+    let after = |mark: &str| lines.iter().position(|line| line.contains(mark)).map(|at| &lines[at + 1..]);
+    // A Python traceback ends with its message, the first line that is not indented; a Rust panic begins with the place.
+    let traceback = after("Traceback (most recent call last)");
+    let exception = traceback.and_then(|rest| rest.iter().find(|line| !line.starts_with(' ')));
+    let panic = || after("' panicked at ").or(after(") panicked at ")).and_then(<[&str]>::first);
+    let named = || lines.iter().find(|line| line.to_lowercase().contains("error"));
+    let line = exception.or_else(panic).or_else(named).or(lines.first())?;
+    Some(line.trim().to_owned())
 }

@@ -95,11 +95,13 @@ fn ratios() {
 fn rows_of_the_table() {
     let mut flipped = measures(4.0);
     flipped.flipped_corners = 3;
-    let text = markdown::render(&league(vec![
+    let league = league(vec![
         row("qparam-paper", figures(measures(2.0))),
         row("rival-a", figures(flipped)),
         row("rival-b", Outcome::Failed { message: "Error: a | b\nmore".to_owned() }),
-    ]));
+    ]);
+    assert_eq!(league.verdict(), Ok(()), "a rival that fails is a row, not a failure of the task");
+    let text = markdown::render(&league);
     assert_eq!(
         line(&text, "| **qparam-paper**"),
         "| **qparam-paper** | yes | 2.00 | 8.00 | 1.25 | 0 | 0 | 0 | 0 | 1 | 0.500 | 1.00 | 20.0 |"
@@ -116,13 +118,15 @@ fn rows_of_the_table() {
     assert_eq!(table, [14; 5], "every row has every column");
 }
 
-/// Without our own result there is nothing to compare with, but the rivals' figures stand.
+/// Without our own result there is nothing to compare with: the rivals' figures stand, the task fails.
 #[test]
 fn no_ratios_when_ours_failed() {
-    let text = markdown::render(&league(vec![
+    let league = league(vec![
         row("qparam-paper", Outcome::Failed { message: "no".to_owned() }),
         row("rival-a", figures(measures(4.0))),
-    ]));
+    ]);
+    assert_eq!(league.verdict(), Err("m.obj: qparam-paper failed: no".to_owned()));
+    let text = markdown::render(&league);
     assert!(line(&text, "| rival-a").contains("| 4.00 |"));
 }
 
@@ -188,6 +192,9 @@ fn complaints_are_one_line() {
         shell::complaint("\nnote\nerror: not a disk\n  help: cut\n").as_deref(),
         Some("error: not a disk")
     );
+    let panic =
+        "thread 'main' (12) panicked at src/x.rs:1:2:\nindex out of bounds\nnote: run with RUST_BACKTRACE\n";
+    assert_eq!(shell::complaint(panic).as_deref(), Some("index out of bounds"));
     assert_eq!(shell::complaint("something else\nmore").as_deref(), Some("something else"));
     assert_eq!(shell::complaint("\n \n"), None);
 }

@@ -108,8 +108,8 @@ fn eye(skin: f64, side: Vec3) -> f64 {
     let brow = capsule(side, [[0.13, 0.19, 0.825], [0.44, 0.17, 0.65]], [0.07, 0.06]);
     let socket = ellipsoid(side, [EYE[0], -0.01, 0.95], [0.20, 0.13, 0.21]);
     let skin = carve(melt(skin, brow, 0.12), socket, 0.1);
-    let lids = carve(ball(side, EYE, 0.15), opening(side), 0.03);
-    melt(skin, lids, 0.07).min(ball(side, EYE, 0.13))
+    let lids = carve(ball(side, EYE, 0.157), opening(side), 0.03);
+    melt(skin, lids, 0.07).min(ball(side, EYE, 0.126))
 }
 
 /// Between the lids: a lens seen from the front, negative inside.

@@ -35,7 +35,9 @@ pub(crate) fn fill(cage: &mut Cage, rows: &[Vec<u32>]) {
     }
     for (eye, side) in EYES.into_iter().zip([-1.0, 1.0]) {
         cage.fill_with_inset(&block(rows, eye), |place| {
-            let [x, y] = lens(place, EYE_OPENING[0], [EYE_OPENING[1]; 2]);
+            // Smoothing shrinks the lens: this much larger, its rim ends on the lids.
+            let [width, height] = EYE_OPENING.map(|half| 1.2 * half);
+            let [x, y] = lens(place, width, [height; 2]);
             from_front(side * EYE[0] + x, EYE[1] + y)
         });
     }

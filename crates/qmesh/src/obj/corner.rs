@@ -57,29 +57,38 @@ impl Iterator for Corners<'_> {
 }
 
 impl Corners<'_> {
-    /// A corner that nothing but a comment may touch.
+    /// Nothing but a comment may touch a corner that has been read up to `position`.
     #[cold]
     fn odd_corner(
         &mut self,
-        corner: Result<Corner, ObjMistakeKind>,
+        corner: Result<Corner, Fault>,
         position: usize,
     ) -> Option<Result<Corner, CornerMistake>> {
-        let kind = match corner {
-            // A comment may follow without a space: `f 1 2 3#last`.
-            Ok(corner) if self.text[position] == b'#' => {
-                self.tokens.stop_at(position);
-                return Some(Ok(corner));
-            }
-            Ok(_) if self.text[position] == b'/' => ObjMistakeKind::TooManySlashes,
-            Ok(_) => ObjMistakeKind::NotAnIndex,
-            Err(kind) => kind,
-        };
+        // A comment may follow without a space: `f 1 2 3#last`.
+        if corner.is_ok() && self.text[position] == b'#' {
+            self.tokens.stop_at(position);
+            return corner.ok().map(Ok);
+        }
         let mut at = self.tokens.next()?;
         if let Some(comment) = memchr::memchr(b'#', &self.text[at.clone()]) {
             at.end = at.start + comment;
         }
+        let kind = match corner {
+            Ok(_) if self.text[position] == b'/' => ObjMistakeKind::TooManySlashes,
+            Ok(_) | Err(Fault::NotAnIndex) => ObjMistakeKind::NotAnIndex,
+            Err(Fault::Zero(zero)) => {
+                at = zero;
+                ObjMistakeKind::ZeroIndex
+            }
+        };
         Some(Err(CornerMistake { kind, at }))
     }
+}
+
+/// Why reading a corner stopped.
+enum Fault {
+    NotAnIndex,
+    Zero(Range<usize>),
 }
 
 /// Reads one corner from left to right.
@@ -91,9 +100,9 @@ struct Scan<'a> {
 
 impl Scan<'_> {
     #[inline]
-    fn corner(&mut self) -> Result<Corner, ObjMistakeKind> {
+    fn corner(&mut self) -> Result<Corner, Fault> {
         let start = self.position;
-        let vertex = self.integer().ok_or(ObjMistakeKind::NotAnIndex)?;
+        let vertex = self.integer().ok_or(Fault::NotAnIndex)?;
         let vertex_at = start..self.position;
         let needs_slash = !self.slash();
         let texture_start = self.position;
@@ -108,7 +117,7 @@ impl Scan<'_> {
             }
         }
         if vertex == 0 || texture == Some(0) {
-            return Err(ObjMistakeKind::ZeroIndex);
+            return Err(Fault::Zero(if vertex == 0 { vertex_at } else { texture_at }));
         }
         Ok(Corner { vertex, vertex_at, texture, texture_at, needs_slash })
     }
@@ -195,7 +204,7 @@ mod tests {
             ("1///2", ObjMistakeKind::TooManySlashes),
             ("1/2/3/4", ObjMistakeKind::TooManySlashes),
             ("0", ObjMistakeKind::ZeroIndex),
-            ("1/0", ObjMistakeKind::ZeroIndex),
+            ("-00", ObjMistakeKind::ZeroIndex),
             ("1\\2", ObjMistakeKind::NotAnIndex),
         ] {
             let found = corners(&format!("f 1 {corner}"));

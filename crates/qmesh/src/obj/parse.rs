@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use super::corner::{Corner, Corners};
+use super::corner::{Corner, CornerMistake, Corners};
 use super::error::{ObjError, ObjMistakeKind};
 use super::lines::LineRuns;
 use super::sniff::evidence_against;
@@ -42,6 +42,8 @@ pub(super) fn parse(text: &[u8]) -> Result<Index, ObjError> {
         ObjError::Empty
     } else if let Some(evidence) = evidence_against(text) {
         ObjError::NotObj { evidence }
+    } else if index.positions.is_empty() {
+        ObjError::NotObj { evidence: "it has neither `v` lines nor `f` lines" }
     } else {
         ObjError::NoFaces { vertices: index.positions.len() }
     })
@@ -126,9 +128,12 @@ impl<'a> Reader<'a> {
         let mut corners = Corners::new(self.text, statement);
         let mut count = 0;
         for corner in corners.by_ref() {
-            let corner = corner.map_err(|mistake| {
-                let form = "`v`, `v/vt`, `v//vn` or `v/vt/vn` with integers from 1, or from -1 backwards";
-                ObjError::mistake(self.text, mistake.at, mistake.kind, form)
+            let corner = corner.map_err(|CornerMistake { kind, at }| {
+                let expected = match kind {
+                    ObjMistakeKind::ZeroIndex => "1 for the first, or -1 for the last so far",
+                    _ => "integers as in `v`, `v/vt`, `v//vn` or `v/vt/vn`",
+                };
+                ObjError::mistake(self.text, at, kind, expected)
             })?;
             self.check_room("face corners", self.index.corner_vertex.len(), statement)?;
             self.corner(&corner)?;
@@ -225,7 +230,10 @@ impl<'a> Reader<'a> {
         let expected: Cow<'static, str> = if written < 0 {
             let index = &self.index;
             let count = if is_texture { index.texture_coordinates.len() } else { index.positions.len() };
-            format!("at most {count} back, as many {what} come before this line").into()
+            match count {
+                0 => format!("no negative index, no {what} come before this line").into(),
+                _ => format!("at most {count} back, as many {what} come before this line").into(),
+            }
         } else {
             let keyword = if is_texture { Keyword::Texture } else { Keyword::Vertex };
             match Statements::new(self.text).filter(|s| s.keyword == keyword).count() {

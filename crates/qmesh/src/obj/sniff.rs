@@ -28,7 +28,8 @@ pub(super) fn evidence_against(bytes: &[u8]) -> Option<&'static str> {
         return Some(evidence);
     }
     let sample = &bytes[..bytes.len().min(SAMPLE)];
-    // Text has no control characters but white space; compressed bytes are at 10 %, binary numbers far above.
+    // Text has no control characters but white space, or a few by mistake; compressed bytes are at 10 %, binary
+    // numbers far above.
     let control = sample.iter().filter(|&&b| b < b'\t' || (b > b'\r' && b < b' ')).count();
-    (control > sample.len() / 50).then_some("it is binary, not text")
+    (control > 8 + sample.len() / 50).then_some("it is binary, not text")
 }

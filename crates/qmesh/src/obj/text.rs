@@ -95,10 +95,15 @@ pub(super) fn line_end(text: &[u8], from: usize) -> (usize, usize) {
     }
 }
 
-/// The first line end of the text; LF when it has none.
-pub(super) fn first_line_end(text: &[u8]) -> &[u8] {
+/// The line end for new lines: that of the first line, or LF. A lone CR is used only where every line ends so:
+/// before an LF it would become half of a CR LF.
+pub(super) fn usual_line_end(text: &[u8]) -> &[u8] {
     let (end, after) = line_end(text, 0);
-    if end == after { b"\n" } else { &text[end..after] }
+    match &text[end..after] {
+        b"\r" if memchr(b'\n', text).is_none() => b"\r",
+        b"\r\n" => b"\r\n",
+        _ => b"\n",
+    }
 }
 
 /// Line and column, both from 1 and in bytes, of a place in the text, and the bytes of that line.

@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::ObjDocument;
 use super::corner::Corners;
 use super::output::Output;
-use super::text::{Keyword, Statement, Statements, Tokens, first_line_end};
+use super::text::{Keyword, Statement, Statements, Tokens, usual_line_end};
 use super::texture::{TextureTable, UvFormat};
 use crate::Vec2;
 
@@ -196,7 +196,7 @@ impl<W: Write> Editor<'_, W> {
     }
 
     fn insert(&mut self, format: UvFormat) -> io::Result<()> {
-        let line_end = first_line_end(self.text);
+        let line_end = usual_line_end(self.text);
         for &uv in &self.table.values {
             self.out.texture(uv, format)?;
             self.out.bytes(line_end)?;
@@ -206,7 +206,7 @@ impl<W: Write> Editor<'_, W> {
 
     /// After the last line, which may lack its line end: then so does the new last line.
     fn insert_at_end(&mut self, format: UvFormat) -> io::Result<()> {
-        let line_end = first_line_end(self.text);
+        let line_end = usual_line_end(self.text);
         let is_ended = matches!(self.text.last(), Some(b'\n' | b'\r'));
         for (i, &uv) in self.table.values.iter().enumerate() {
             if i > 0 || !is_ended {

@@ -1,0 +1,9 @@
+//! The lossless OBJ layer, seen from outside.
+
+mod independent;
+mod mistakes;
+mod reader;
+mod real;
+mod slow;
+mod texts;
+mod trimmings;

@@ -62,11 +62,17 @@ pub enum BuildError {
     NonManifoldEdge {
         /// The ends of the edge.
         vertices: [u32; 2],
-        /// The faces that share it; a face that uses it twice is listed twice.
+        /// The faces that share it, in ascending order.
         faces: Vec<u32>,
     },
+    /// Two faces have the same vertices in the same order.
+    #[error("faces {} and {} are the same: remove one of them", faces[0], faces[1])]
+    DuplicateFaces {
+        /// The two faces.
+        faces: [u32; 2],
+    },
     /// Two neighbouring faces run along their edge in the same direction.
-    #[error("faces {} and {} run the same way along edge {}-{}: one of them is turned over", faces[0], faces[1], vertices[0], vertices[1])]
+    #[error("faces {} and {} run the same way along edge {}-{}: one of them is turned over, or the surface has one side only", faces[0], faces[1], vertices[0], vertices[1])]
     InconsistentOrientation {
         /// The edge, in the direction of both faces.
         vertices: [u32; 2],

@@ -11,9 +11,21 @@
 //! # Ok::<(), qmesh::BuildError>(())
 //! ```
 //!
+//! Files come and go through [`obj`], which changes nothing but UVs; [`shapes`] makes meshes to try things on.
+//!
 //! Guaranteed: a [`QuadMesh`] is an oriented manifold whose faces and vertices keep the order of the input; faces
-//! of any degree from three are kept as they are. Not guaranteed: anything about shape; faces may be non-planar,
-//! concave or of no area.
+//! of any degree from three are kept as they are; polygons that are no such thing are refused with the elements
+//! that say so ([`BuildError`]). No input panics, and building takes `O(n)` for meshes with bounded valence,
+//! `O(n^1.5)` for any.
+//!
+//! Not guaranteed: anything about shape; faces may be non-planar, concave or of no area. Nothing is repaired: a
+//! vertex where two fans touch, an edge with three faces, or a face that is turned over have to be mended before.
+//! Ids are `u32`: a mesh has fewer than 2³¹ corners.
+//!
+//! To read the code, begin with `ids`, `data` and `polygons`; `mesh` holds the arrays, `build` fills them, `walk` and
+//! `topology` ask them; [`obj`] and [`shapes`] stand beside that.
+//!
+//! With the feature `serde`, meshes, polygons, per-element data, options and reports can be serialised.
 
 mod build;
 mod data;
@@ -23,8 +35,11 @@ mod mesh;
 pub mod obj;
 pub mod observe;
 mod polygons;
+#[cfg(feature = "serde")]
+mod serial;
 pub mod shapes;
 mod topology;
+mod walk;
 
 pub use data::{CornerData, EdgeData, ElementData, FaceData, HalfedgeData, VertexData};
 pub use error::BuildError;
@@ -42,3 +57,8 @@ pub type Vec2 = nalgebra::Vector2<f64>;
 
 /// The largest coordinate that is accepted. Beyond it, areas and their squares would leave the range of `f64`.
 pub const COORDINATE_LIMIT: f64 = 1e60;
+
+/// Compiles the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

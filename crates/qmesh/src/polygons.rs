@@ -43,6 +43,8 @@ impl<'a> PolygonView<'a> {
 
 /// An owned list of polygons over shared positions.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub struct Polygons {
     /// One position per vertex.
     pub positions: Vec<Vec3>,

@@ -9,6 +9,7 @@ use crate::independent::assert_same_faces;
 use crate::slow::without_uv;
 use crate::trimmings::some_uv;
 
+#[expect(clippy::print_stdout, reason = "a skipped test should say so")]
 fn real_meshes() -> Vec<PathBuf> {
     let Some(folder) = std::env::var_os("QPARAM_MESHES") else {
         println!("skipped: QPARAM_MESHES is not set");

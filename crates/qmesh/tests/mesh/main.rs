@@ -1,0 +1,10 @@
+//! Connectivity and topology, seen from outside.
+
+mod halfedges;
+mod poles;
+mod refusals;
+mod samples;
+#[cfg(feature = "serde")]
+mod serial;
+mod soup;
+mod topology;

@@ -171,6 +171,13 @@ fn is_continued(line: &[u8]) -> bool {
     line.last() == Some(&b'\\') && memchr(b'#', line).is_none()
 }
 
+/// Whether the text stops where a last line was to be continued: what is appended would belong to that line.
+pub(super) fn is_left_open(text: &[u8]) -> bool {
+    let bare = text.strip_suffix(b"\n").unwrap_or(text);
+    let bare = bare.strip_suffix(b"\r").unwrap_or(bare);
+    bare.last() == Some(&b'\\')
+}
+
 /// The words of a statement, as byte ranges; a comment ends them.
 #[derive(Clone)]
 pub(super) struct Tokens<'a> {

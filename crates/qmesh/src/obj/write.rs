@@ -6,6 +6,7 @@ use std::ops::Range;
 use super::ObjDocument;
 use super::corner::Corners;
 use super::output::Output;
+use super::text;
 use super::text::{Keyword, Statement, Statements, Tokens, usual_line_end};
 use super::texture::{TextureTable, UvFormat};
 use crate::Vec2;
@@ -208,6 +209,11 @@ impl<W: Write> Editor<'_, W> {
     fn insert_at_end(&mut self, format: UvFormat) -> io::Result<()> {
         let line_end = usual_line_end(self.text);
         let is_ended = matches!(self.text.last(), Some(b'\n' | b'\r'));
+        if text::is_left_open(self.text) {
+            // After a lone CR the first LF only completes its line end.
+            let is_half = line_end == b"\n" && self.text.last() == Some(&b'\r');
+            self.out.bytes(if is_half { b"\n\n" } else { line_end })?;
+        }
         for (i, &uv) in self.table.values.iter().enumerate() {
             if i > 0 || !is_ended {
                 self.out.bytes(line_end)?;

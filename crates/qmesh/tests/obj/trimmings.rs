@@ -169,6 +169,11 @@ fn lines_keep_their_texture_coordinates() {
     let text = format!("{TRIANGLE}vt 7 7\n{faces}l 1/-1 2/-1");
     let expected = format!("{TRIANGLE}vt 7 7\nf 1/2 2/3 3/4\nl 1/-1 2/-1\n{}", new.trim_end());
     assert_eq!(rewritten(&text), expected);
+
+    // The file stops where the line was to be continued: an empty line keeps the new ones out of it.
+    let text = format!("{TRIANGLE}vt 7 7\n{faces}l 1/-1 2/-1 \\\n");
+    let expected = format!("{TRIANGLE}vt 7 7\nf 1/2 2/3 3/4\nl 1/-1 2/-1 \\\n\n{new}");
+    assert_eq!(rewritten(&text), expected);
 }
 
 #[test]

@@ -88,6 +88,17 @@ void write(const std::string& path, const Document& document, const UvMap& uv) {
     }
 }
 
+// The largest resident set so far, as JSON: `null` where the system does not tell.
+std::string peak_memory_bytes() {
+    std::ifstream status("/proc/self/status");
+    std::string word;
+    long kilobytes = 0;
+    while (status >> word) {
+        if (word == "VmHWM:" && status >> kilobytes) return std::to_string(kilobytes * 1024);
+    }
+    return "null";
+}
+
 template <class Parameterizer>
 Solve with(Parameterizer parameterizer) {
     return [parameterizer](Mesh& mesh, Halfedge border, UvMap uv) mutable {
@@ -132,7 +143,8 @@ int run(const std::string& method, const std::string& source, const std::string&
     }
     write(target, document, uv);
     std::ofstream(report) << "{\"solve_seconds\": " << wall_seconds.count()
-                          << ", \"solve_cpu_seconds\": " << cpu_seconds << "}\n";
+                          << ", \"solve_cpu_seconds\": " << cpu_seconds
+                          << ", \"peak_memory_bytes\": " << peak_memory_bytes() << "}\n";
     return 0;
 }
 

@@ -1,13 +1,12 @@
 """Runs a command and says what it cost: `launch.py REPORT.json SECONDS OUT.txt ERR.txt -- COMMAND…`.
 
 The report has `status` (exit code; negative: the signal), `timed_out`, `wall_seconds`, `cpu_seconds` (user and system)
-and `peak_memory_bytes` (`ru_maxrss` of the child). This interpreter's own memory, about 10 MB, is a floor of the last
-one: the child is born with it. Standard library only.
+and `peak_memory_bytes` (`ru_maxrss` of the child; never less than the 10 MB of this interpreter, which the child is
+born with: what a process says of itself goes before). Standard library only.
 """
 
 import json
 import os
-import resource
 import signal
 import subprocess
 import sys
@@ -39,7 +38,6 @@ def main():
         "cpu_seconds": usage.ru_utime + usage.ru_stime,
         # Kilobytes everywhere but on macOS.
         "peak_memory_bytes": usage.ru_maxrss * (1 if sys.platform == "darwin" else 1024),
-        "floor_bytes": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024),
     }
     with open(report, "w", encoding="utf-8") as file:
         json.dump(cost, file)

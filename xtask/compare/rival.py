@@ -1,7 +1,7 @@
 """One rival on one mesh: `rival.py METHOD IN.obj OUT.obj REPORT.json`; `rival.py --list` prints the methods.
 
 Each method triangulates as users of that tool do, is timed around the solve alone, and maps its UVs back to the
-corners of the quads. The report has `solve_seconds` (wall) and `solve_cpu_seconds`.
+corners of the quads. The report has `solve_seconds` (wall), `solve_cpu_seconds` and `peak_memory_bytes`.
 """
 
 import json
@@ -178,8 +178,9 @@ def main():
         return
     method, source, target, report = sys.argv[1:]
     clock = METHODS[method](source, obj.read(source), target)
+    figures = {"solve_seconds": clock.wall, "solve_cpu_seconds": clock.cpu}
     with open(report, "w", encoding="utf-8") as file:
-        json.dump({"solve_seconds": clock.wall, "solve_cpu_seconds": clock.cpu}, file)
+        json.dump({**figures, "peak_memory_bytes": obj.peak_memory_bytes()}, file)
 
 
 main()

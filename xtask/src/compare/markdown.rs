@@ -54,7 +54,7 @@ fn header(league: &League) -> String {
          of which neither diagonal gives two positive triangles. **Torn quads**: quads whose two triangles went to \
          different places; they are measured as two triangles. Errors are sums; those of a map in many islands are small \
          because its cuts pay for them. **Solve**: the computation alone. **Process**: with starting, reading and \
-         writing. **Memory**: the largest resident set of the process; about 12 MB is the least that can be seen.\n\n\
+         writing. **Memory**: the largest resident set of the process.\n\n\
          All results were measured by `qparam measure` and by an independent script; {}.\n",
         machine.processor,
         machine.threads,

@@ -8,6 +8,7 @@ use serde_json::Value;
 use super::contestant::Contestant;
 use super::league::Measures;
 use super::places::Places;
+use super::race::Account;
 use super::shell;
 
 /// The built binary.
@@ -102,8 +103,11 @@ fn measures(report: &Value) -> Option<&Value> {
     }
 }
 
-/// Seconds of the computation alone, from the report of `qparam unwrap --json`.
-pub(super) fn solve_seconds(report: &str) -> Option<f64> {
+/// Seconds of the computation alone and the largest resident set, from the report of `qparam unwrap --json`.
+pub(super) fn own_account(report: &str) -> Option<Account> {
     let report: Value = serde_json::from_str(report).ok()?;
-    report.get("timings_seconds")?.get("parameterize")?.as_f64()
+    Some(Account {
+        solve_seconds: report.get("timings_seconds")?.get("parameterize")?.as_f64()?,
+        peak_memory_bytes: report.get("peak_memory_bytes").and_then(Value::as_u64),
+    })
 }

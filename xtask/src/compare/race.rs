@@ -39,7 +39,7 @@ pub(super) struct Finish {
 
 /// One run.
 struct Lap {
-    solve: f64,
+    account: Account,
     cost: Cost,
     hash: u64,
 }
@@ -54,10 +54,12 @@ struct Cost {
     peak_memory_bytes: u64,
 }
 
-/// The report of a rival.
-#[derive(Deserialize)]
-struct Report {
-    solve_seconds: f64,
+/// What a process says of itself: the report of a rival.
+#[derive(Debug, Deserialize, PartialEq)]
+pub(super) struct Account {
+    pub(super) solve_seconds: f64,
+    /// None where the system does not tell.
+    pub(super) peak_memory_bytes: Option<u64>,
 }
 
 impl Race<'_> {
@@ -112,14 +114,14 @@ impl Race<'_> {
                 .and_then(|bytes| shell::complaint(&String::from_utf8_lossy(&bytes)));
             return Err(said.map_or_else(|| ended(cost.status), |said| self.without_paths(&said, mesh)));
         }
-        let solve = if contestant.ours {
-            ours::solve_seconds(&read(&stdout)?).ok_or("its report names no time")?
+        let account = if contestant.ours {
+            ours::own_account(&read(&stdout)?).ok_or("its report names no time")?
         } else {
-            serde_json::from_str::<Report>(&read(&report)?).map_err(|error| error.to_string())?.solve_seconds
+            serde_json::from_str(&read(&report)?).map_err(|error| error.to_string())?
         };
         let mut hasher = DefaultHasher::new();
         hasher.write(&std::fs::read(&output).map_err(|error| format!("no output: {error}"))?);
-        Ok(Lap { solve, cost, hash: hasher.finish() })
+        Ok(Lap { account, cost, hash: hasher.finish() })
     }
 
     /// A message without the folders of this machine.
@@ -143,15 +145,21 @@ fn ended(status: i32) -> String {
     }
 }
 
+impl Lap {
+    fn peak_memory_bytes(&self) -> u64 {
+        self.account.peak_memory_bytes.unwrap_or(self.cost.peak_memory_bytes)
+    }
+}
+
 impl Finish {
     fn of(laps: &[Lap], output: PathBuf) -> Self {
         let middle = |value: &dyn Fn(&Lap) -> f64| median(laps.iter().map(value).collect());
         Self {
             output,
-            solve_seconds: middle(&|lap| lap.solve),
+            solve_seconds: middle(&|lap| lap.account.solve_seconds),
             process_seconds: middle(&|lap| lap.cost.wall_seconds),
             cpu_seconds: middle(&|lap| lap.cost.cpu_seconds),
-            peak_memory_bytes: middle(&|lap| lap.cost.peak_memory_bytes as f64) as u64,
+            peak_memory_bytes: middle(&|lap| lap.peak_memory_bytes() as f64) as u64,
             repeatable: laps.iter().all(|lap| lap.hash == laps[0].hash),
         }
     }

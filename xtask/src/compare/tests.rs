@@ -185,6 +185,14 @@ fn methods_are_read_from_the_help() {
 }
 
 #[test]
+fn our_report_names_time_and_memory() {
+    let report = r#"{"timings_seconds": {"parameterize": 0.25, "total": 1.0}, "peak_memory_bytes": 4096}"#;
+    let account = race::Account { solve_seconds: 0.25, peak_memory_bytes: Some(4096) };
+    assert_eq!(ours::own_account(report), Some(account));
+    assert_eq!(ours::own_account("{}"), None);
+}
+
+#[test]
 fn complaints_are_one_line() {
     let traceback = "noise\nTraceback (most recent call last):\n  File \"x.py\", line 1\n    boom()\nValueError: no\nbye\n";
     assert_eq!(shell::complaint(traceback).as_deref(), Some("ValueError: no"));

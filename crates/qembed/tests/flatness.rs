@@ -87,6 +87,30 @@ fn classic_maps_of_flat_meshes_are_the_identity() {
     assert!(off < 1e-9, "mean value: {off:e}");
 }
 
+/// Triangles among the quads change nothing about that.
+#[test]
+fn mixed_faces_come_back_as_themselves() {
+    let quads = shapes::jittered_grid(9, 8, 0.1, 6);
+    let positions: Vec<[f64; 3]> = quads.positions().iter().map(|&p| p.into()).collect();
+    let faces = quads.faces().flat_map(|face| {
+        let v: Vec<u32> = quads.face_vertices(face).map(|v| v.0).collect();
+        match face.0 % 3 {
+            0 => vec![vec![v[0], v[1], v[2]], vec![v[0], v[2], v[3]]],
+            _ => vec![v],
+        }
+    });
+    let mesh = QuadMesh::from_slices(&positions, faces).unwrap();
+    for q in [0.0, 0.5, 1.0] {
+        let uv = map(&mesh, RemovalRule::All, &star1(&mesh, q, Mixing::RowNormalized));
+        assert!(largest_difference(&uv, &itself(&mesh)) < 1e-9, "q = {q}");
+    }
+    for method in [Classic::Harmonic, Classic::MeanValue] {
+        let solve = SolveOptions::default();
+        let uv = embed_classic(&mesh, method, &own_boundary(&mesh), &solve, &()).unwrap().uv;
+        assert!(largest_difference(&uv, &itself(&mesh)) < 1e-9, "{method:?}");
+    }
+}
+
 /// The least squares conformal map of a flat mesh is a similarity that keeps orientation: here even an isometry, since
 /// the pins keep their distance.
 #[test]

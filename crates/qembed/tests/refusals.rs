@@ -6,10 +6,10 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use common::simplified;
-use qembed::qmesh::{QuadMesh, shapes};
+use qembed::qmesh::{QuadMesh, Vec3, shapes};
 use qembed::qsimplify::RemovalRule;
 use qembed::qsolve::SolveOptions;
-use qembed::{BoundaryShape, Classic, EmbedError, EmbedOptions, embed, embed_classic};
+use qembed::{BoundaryShape, Classic, EmbedError, EmbedOptions, Mixing, Weights, embed, embed_classic};
 
 fn refusal(mesh: &QuadMesh) -> String {
     let kept = simplified(mesh, RemovalRule::None);
@@ -69,6 +69,49 @@ fn extreme_springs_stay_finite() {
             let options = EmbedOptions { exponent, ..Default::default() };
             let uv = common::map(&mesh, rule, &options);
             assert!(uv.iter().all(|p| p.norm() <= 1.0 + 1e-6), "{rule:?} {exponent}");
+        }
+    }
+}
+
+/// Coincident and collinear vertices, and sizes at the ends of the range: a finite map or an error, never a panic.
+#[test]
+fn degenerate_geometry_never_panics() {
+    type Shape = fn(&Vec3) -> Vec3;
+    let mesh = shapes::jittered_grid(4, 5, 0.2, 3);
+    let shapes: [(&str, Shape); 6] = [
+        ("one place", |_| Vec3::new(1.0, 2.0, 3.0)),
+        ("one line", |p| Vec3::new(p.x + p.y, 0.0, 0.0)),
+        ("two places", |p| Vec3::new(if p.x < 2.0 { 0.0 } else { 1.0 }, 0.0, 0.0)),
+        ("folded", |p| Vec3::new((p.x - 2.0).abs(), p.y, 0.0)),
+        ("tiny", |p| 1e-300 * p),
+        ("huge", |p| 1e59 * p),
+    ];
+    for (name, shape) in shapes {
+        let mesh = common::moved(&mesh, shape);
+        let mut results = Vec::new();
+        for boundary in [BoundaryShape::Circle, BoundaryShape::Square, BoundaryShape::Projection] {
+            for weights in [Weights::Star4, Weights::Star1, Weights::Printed] {
+                for mixing in [Mixing::RowNormalized, Mixing::Raw] {
+                    for rule in
+                        [RemovalRule::None, RemovalRule::All, RemovalRule::Guarded, RemovalRule::Naive]
+                    {
+                        let options = EmbedOptions {
+                            weights,
+                            mixing,
+                            boundary: boundary.clone(),
+                            ..Default::default()
+                        };
+                        results.push(embed(&mesh, &simplified(&mesh, rule), &options, &()));
+                    }
+                }
+            }
+            for method in [Classic::Uniform, Classic::MeanValue, Classic::Harmonic, Classic::Lscm] {
+                results.push(embed_classic(&mesh, method, &boundary, &SolveOptions::default(), &()));
+            }
+        }
+        assert!(results.iter().any(Result::is_ok), "{name}");
+        for embedding in results.into_iter().flatten() {
+            assert!(embedding.uv.iter().all(|p| p.iter().all(|x| x.is_finite())), "{name}");
         }
     }
 }

@@ -9,15 +9,16 @@ use crate::krylov::Krylov;
 use crate::solver::LinearSolver;
 use crate::{Backend, SolveError, SolveMethod, SolveOptions, SolveRecord, Structure};
 
-/// Unknowns above which a general system is iterated on first. On row-normalised systems of grids (one thread) LU took
-/// 1.2 s and 0.45 GB for 190 thousand unknowns, 17 s and 2.7 GB for a million; BiCGStab 5 s and 29 s, in a
-/// quarter of the memory. So iterations do not save time here; they are what still fits.
-const LU_LIMIT: usize = 1_500_000;
+/// Unknowns above which a general system is iterated on first. Processor seconds and memory of a row-normalised
+/// mesh system with two right-hand sides, LU against BiCGStab: 190 thousand unknowns 1.1 s, 0.45 GB and 1.3-2.0 s,
+/// 0.17 GB; half a million 3.5 s, 1.3 GB and 6 s, 0.47 GB; a million 8.7 s, 2.9 GB and 13 s, 1.0 GB. The iterations use
+/// a thread for each right-hand side, so with two the clock shows about the same; from here on memory decides.
+const LU_LIMIT: usize = 500_000;
 
 /// Solves `A X = B`, `A` n × n, `B` n × k.
 ///
-/// Symmetric systems are factorized unless iterations are asked for. General ones are factorized up to 1.5 million
-/// unknowns; larger ones are iterated on first and factorized when that fails. Every answer is checked against the
+/// Symmetric systems are factorized unless iterations are asked for. General ones are factorized up to half a
+/// million unknowns; larger ones are iterated on first and factorized when that fails. Every answer is checked against the
 /// matrix, and refined or refused when its residual is too large.
 ///
 /// ```

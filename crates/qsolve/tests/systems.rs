@@ -91,6 +91,22 @@ fn contrast_does_not_spoil_the_residual() {
     assert!(x.column(0).iter().all(|x| (x - 1.0).abs() < 1e-3), "constant functions solve this system");
 }
 
+/// Iterations that do not arrive are followed by a factorization, and the record says so.
+#[test]
+fn failed_iterations_fall_back_to_factors() {
+    let mut random = Random::new(4);
+    for (matrix, structure, method) in [
+        (spd(20, 10.0, &mut random), SPD, SolveMethod::Cholesky),
+        (row_normalized(20, &mut random), Structure::General, SolveMethod::Lu),
+    ] {
+        let b = rhs(400, 2, &mut random);
+        let hurried = SolveOptions { backend: Backend::Iterative, max_iterations: 1, ..Default::default() };
+        assert_eq!(solve(&matrix, structure, &b, &hurried).unwrap().1.method, method);
+        let krylov = Krylov::new(&matrix, structure, 1).unwrap();
+        assert!(matches!(krylov.solve(&b, 1e-8), Err(SolveError::Inaccurate { .. })));
+    }
+}
+
 /// A permutation matrix has no diagonal at all: LU has to pivot, and BiCGStab to do without ILU(0).
 #[test]
 fn pivots_are_found_off_the_diagonal() {

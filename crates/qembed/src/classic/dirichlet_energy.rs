@@ -1,7 +1,7 @@
 //! The Dirichlet energy of maps of a polygon mesh, no diagonal preferred.
 //!
 //! Each polygon is cut into triangles from one corner, and the energies are averaged over all corners: for a quad the
-//! mean of its two cuts (Eck et al. 1995 give the weights for one triangle). Exact for linear maps of flat polygons.
+//! mean of its two cuts (Eck et al. 1995 give the weights for one triangle). Exact for linear maps of flat convex polygons.
 
 use crate::qmesh::{FaceId, QuadMesh, Vec3, VertexId};
 

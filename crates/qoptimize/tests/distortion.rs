@@ -61,7 +61,7 @@ fn corner_uv(mesh: &QuadMesh, uv: impl Fn(Vec3) -> Vec2) -> Vec<Vec2> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(150))]
+    #![proptest_config(ProptestConfig { cases: 150, failure_persistence: None, ..Default::default() })]
 
     /// Two implementations of the definitions agree to 1e-9: on quads, triangles and hexagons, with flips, zero
     /// areas and angles, islands, mirrored islands, and crossing boundaries.

@@ -102,22 +102,21 @@ fn sums(surface: &Surface<'_>, faces: Range<usize>, space: f64, plane: f64) -> S
     sums
 }
 
-/// Sum over the corners of the change of the (unsigned) angle.
+/// Sum over the corners of the change of the (unsigned) angle; a full turn for each when a side has no length.
 fn angle_difference(triangle: &Triangle) -> f64 {
-    (0..3)
-        .map(|i| {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            let [a, b] = [j, k].map(|other| triangle.space[other] - triangle.space[i]);
-            let [p, q] = [j, k].map(|other| triangle.plane[other] - triangle.plane[i]);
-            let sides =
-                [a.norm(), b.norm(), p.norm(), q.norm(), (triangle.plane[j] - triangle.plane[k]).norm()];
-            if sides.contains(&0.0) {
-                return TAU;
-            }
-            let theta = a.cross(&b).norm().atan2(a.dot(&b));
-            (theta - triangle.turn.abs().atan2(p.dot(&q))).abs()
-        })
-        .sum()
+    let [a, b, c] = triangle.space;
+    let [p, q, r] = triangle.plane;
+    let (space, plane) = ([b - a, c - b, a - c], [q - p, r - q, p - r]);
+    if space.iter().any(|side| side.norm_squared() == 0.0)
+        || plane.iter().any(|side| side.norm_squared() == 0.0)
+    {
+        return 3.0 * TAU;
+    }
+    let doubled = [2.0 * triangle.space_area, triangle.turn.abs()];
+    let first = doubled[0].atan2(-space[0].dot(&space[2])) - doubled[1].atan2(-plane[0].dot(&plane[2]));
+    let second = doubled[0].atan2(-space[0].dot(&space[1])) - doubled[1].atan2(-plane[0].dot(&plane[1]));
+    // Both triangles have the same angle sum.
+    first.abs() + second.abs() + (first + second).abs()
 }
 
 pub(super) fn benchmark(surface: &Surface<'_>) -> Benchmark {

@@ -115,8 +115,8 @@ impl Stretch {
         let first = plane[0] / length;
         let second = (plane[1] - first * x) / y;
         // The sum and the difference of the singular values, or the other way round where the map flips.
-        let sum = (first.x + second.y).hypot(first.y - second.x);
-        let difference = (first.x - second.y).hypot(first.y + second.x);
+        let sum = Vec2::new(first.x + second.y, first.y - second.x).norm();
+        let difference = Vec2::new(first.x - second.y, first.y + second.x).norm();
         let determinant = plane_area / space_area;
         let large = f64::midpoint(sum, difference);
         let small = if large > 0.0 { determinant.abs() / large } else { 0.0 };

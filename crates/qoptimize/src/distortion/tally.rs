@@ -132,17 +132,18 @@ pub(super) struct Tally {
 impl Tally {
     pub(super) fn of(frame: &Frame<'_>, faces: Range<usize>, signed_areas: &[f64]) -> Self {
         let mut tally = Self::default();
+        let mut corners = Vec::new();
         for face in faces {
-            tally.add_face(frame, face, signed_areas[face]);
+            let range = frame.surface.polygons.corners(face);
+            corners.clear();
+            corners.extend(range.clone().map(|corner| frame.surface.corner(&range, corner)));
+            tally.add_face(frame, &corners, (frame.mirror)(face), signed_areas[face]);
         }
         tally
     }
 
-    fn add_face(&mut self, frame: &Frame<'_>, face: usize, signed_area: f64) {
-        let range = frame.surface.polygons.corners(face);
-        let mirror = (frame.mirror)(face);
-        let weight = face_weight(range.len());
-        let corners: Vec<Corner> = range.clone().map(|corner| frame.surface.corner(&range, corner)).collect();
+    fn add_face(&mut self, frame: &Frame<'_>, corners: &[Corner], mirror: f64, signed_area: f64) {
+        let weight = face_weight(corners.len());
         let normal = corners.iter().map(|corner| corner.normal).sum();
         // Whether a corner is flipped, for those at even and at odd places: a quad's two pairs are its two diagonals.
         let mut flipped = [false; 2];
@@ -161,12 +162,12 @@ impl Tally {
         let is_negative = signed_area * mirror <= 0.0;
         self.flipped_faces += usize::from(any_flipped);
         self.negative_faces += usize::from(is_negative);
-        self.folded_faces += usize::from(match range.len() {
+        self.folded_faces += usize::from(match corners.len() {
             4 => flipped[0] && flipped[1],
             3 => any_flipped,
             _ => is_negative,
         });
-        self.wound_faces += usize::from(!any_flipped && winds_more_than_once(&corners));
+        self.wound_faces += usize::from(!any_flipped && winds_more_than_once(corners));
     }
 
     /// Eq. 13.

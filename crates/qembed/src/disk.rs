@@ -9,13 +9,22 @@ const NAMED_LOOPS: usize = 8;
 /// Distances that differ by less than this fraction count as equal, so that rounding does not break ties.
 const TIE: f64 = 1e-9;
 
+/// Whether the mesh is a disk: one component, one boundary loop, no handles. Every embedding asks this first; ask
+/// it yourself before other long work.
+///
+/// # Errors
+/// What the mesh is instead, with elements to find it by.
+pub fn check_disk(mesh: &QuadMesh) -> Result<(), EmbedError> {
+    check_loops(mesh, &mesh.boundary_loops())
+}
+
 /// The boundary of a disk, counter-clockwise, from the vertex that lies farthest from its centroid.
 ///
 /// # Errors
 /// When the mesh is no disk.
 pub(crate) fn rim(mesh: &QuadMesh) -> Result<Vec<VertexId>, EmbedError> {
     let loops = mesh.boundary_loops();
-    check_disk(mesh, &loops)?;
+    check_loops(mesh, &loops)?;
     let mut rim = mesh.loop_vertices(&loops[0]);
     let center = centroid(mesh, &rim);
     let start = farthest(mesh, &rim, center);
@@ -54,7 +63,7 @@ pub(crate) fn centroid(mesh: &QuadMesh, walk: &[VertexId]) -> Vec3 {
     if total > 0.0 { first + sum / total } else { first }
 }
 
-fn check_disk(mesh: &QuadMesh, loops: &[Vec<HalfedgeId>]) -> Result<(), EmbedError> {
+fn check_loops(mesh: &QuadMesh, loops: &[Vec<HalfedgeId>]) -> Result<(), EmbedError> {
     let (component, components) = mesh.components();
     if components > 1 {
         let vertex = |wanted: u32| {

@@ -52,6 +52,7 @@ mod error;
 mod frame;
 
 pub use classic::{Classic, embed_classic};
+pub use disk::check_disk;
 pub use embed::embed;
 pub use embedding::{Embedding, StageSolve};
 pub use error::EmbedError;

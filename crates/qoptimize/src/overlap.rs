@@ -3,8 +3,8 @@
 //!
 //! The paper's formula has the old positions on its right; with a queue that tests again after every move there is no
 //! "old", so moves use the current positions (Gauss-Seidel). A vertex *overlaps* when it belongs to a corner triangle
-//! whose area is at most 1e-12 of the mean: zero counts. Overlapping vertices and the immediate one-rings of them
-//! move; the boundary never does.
+//! of no positive area, zero included; the sign is exact, so the tiny areas at the far end of a long limb are none.
+//! Overlapping vertices and the immediate one-rings of them move; the boundary never does.
 //!
 //! With λ2 = 0 and every interior vertex moving, this would be Tutte's embedding, solved step by step, and end without
 //! overlaps on a convex boundary. For λ2 > 0 no theorem is known. On a boundary that is not convex there may be no
@@ -72,7 +72,7 @@ impl OverlapOptions {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct OverlapReport {
-    /// Corner triangles of no area above 1e-12 of the mean, before.
+    /// Corner triangles of no positive area, before.
     pub before: usize,
     /// And after.
     pub after: usize,
@@ -80,7 +80,8 @@ pub struct OverlapReport {
     pub stuck_on_boundary: usize,
     /// How many times a vertex was moved.
     pub moves: usize,
-    /// Whether the bound on the moves ended it.
+    /// Whether the bound on the moves ended it. If not, and more than `stuck_on_boundary` are left, all vertices that
+    /// may move have come to rest.
     pub hit_limit: bool,
 }
 

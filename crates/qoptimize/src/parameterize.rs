@@ -7,7 +7,8 @@ use qembed::qmesh::{CornerData, Observer, QuadMesh, Vec2, VertexData};
 use qembed::qsimplify::{SimplifyOptions, simplify};
 use qembed::qsolve::SolveOptions;
 use qembed::{
-    BoundaryShape, Classic, EmbedOptions, Embedding, Mixing, StageSolve, Weights, embed, embed_classic,
+    BoundaryShape, Classic, EmbedError, EmbedOptions, Embedding, Mixing, StageSolve, Weights, check_disk,
+    embed, embed_classic,
 };
 
 use crate::distortion::{Distortion, measure};
@@ -117,8 +118,8 @@ pub struct RunRecord {
 /// length is a power of two near the size of the mesh, so meshes of any size are mapped alike, except with
 /// [`Mixing::Raw`], whose very point is that it depends on the unit.
 ///
-/// Stages that the observer hears of, each from 0 to 1: `"curvature"`, `"simplify"`, `"global"`, `"local"`,
-/// `"overlaps"` and `"measure"` with [`Method::Paper`]; the name of the method and `"measure"` otherwise.
+/// The observer hears of one stage after the other, each from 0 to 1: those of [`simplify`] and [`embed`] (or
+/// [`embed_classic`]), then `"overlaps"` with [`Method::Paper`], then `"measure"`.
 ///
 /// Overlaps may remain: [`Parameterization::distortion`] counts them, and [`Distortion::is_injective`] says whether the
 /// map is proven free of them.
@@ -132,19 +133,15 @@ pub fn parameterize(
     observer: &dyn Observer,
 ) -> Result<Parameterization, ParameterizeError> {
     options.check()?;
-    ParameterizeError::of_topology(mesh.topology()).map_or(Ok(()), Err)?;
+    check_disk(mesh)?;
     let unit_mesh = in_own_unit(mesh, options.mixing);
-    let (mut uv, record) = match options.method {
+    let (uv, record) = match options.method {
         Method::Paper => paper(&unit_mesh, options, observer)?,
         Method::Uniform => classic(&unit_mesh, Classic::Uniform, options, observer)?,
         Method::MeanValue => classic(&unit_mesh, Classic::MeanValue, options, observer)?,
         Method::Harmonic => classic(&unit_mesh, Classic::Harmonic, options, observer)?,
         Method::Lscm => classic(&unit_mesh, Classic::Lscm, options, observer)?,
     };
-    let is_placed = options.method != Method::Lscm && matches!(options.boundary, BoundaryShape::Fixed(_));
-    if options.normalize && !is_placed {
-        normalize(&mut uv);
-    }
     let uv = mesh.to_corners(&uv);
     watch(observer, 0.0)?;
     let distortion = measure(mesh.view(), &uv)?;
@@ -155,10 +152,10 @@ pub fn parameterize(
 impl Options {
     fn check(&self) -> Result<(), ParameterizeError> {
         if !(0.0..=1.0).contains(&self.q) {
-            return Err(ParameterizeError::BadQ(self.q));
+            return Err(EmbedError::BadMix(self.q).into());
         }
-        if !self.exponent.is_finite() {
-            return Err(ParameterizeError::BadExponent(self.exponent));
+        if !(self.exponent >= 0.0 && self.exponent.is_finite()) {
+            return Err(EmbedError::BadExponent(self.exponent).into());
         }
         self.overlaps.as_ref().map_or(Ok(()), OverlapOptions::check)
     }
@@ -201,6 +198,8 @@ fn paper(mesh: &QuadMesh, options: &Options, observer: &dyn Observer) -> Result<
         solve: options.solve,
     };
     let mut embedding = embed(mesh, &simplified, &embed_options, observer)?;
+    // First, because it rounds: what is mended afterwards stays mended.
+    normalize(&mut embedding.uv, options);
     let overlaps = match &options.overlaps {
         Some(overlap_options) => Some(remove_overlaps(mesh, &mut embedding.uv, overlap_options, observer)?),
         None => None,
@@ -209,6 +208,7 @@ fn paper(mesh: &QuadMesh, options: &Options, observer: &dyn Observer) -> Result<
     record.removal_candidates = simplified.candidates;
     record.removed_vertices = simplified.removed.len();
     record.overlaps = overlaps;
+    normalize(&mut embedding.uv, options);
     Ok((embedding.uv, record))
 }
 
@@ -218,7 +218,8 @@ fn classic(
     options: &Options,
     observer: &dyn Observer,
 ) -> Result<Placed, ParameterizeError> {
-    let embedding = embed_classic(mesh, method, &options.boundary, &options.solve, observer)?;
+    let mut embedding = embed_classic(mesh, method, &options.boundary, &options.solve, observer)?;
+    normalize(&mut embedding.uv, options);
     let record = RunRecord::new(mesh, &embedding);
     Ok((embedding.uv, record))
 }
@@ -237,14 +238,16 @@ impl RunRecord {
     }
 }
 
-/// Moves and scales the UVs so that their bounding box starts at 0 and its longer side is 1.
-fn normalize(uv: &mut VertexData<Vec2>) {
+/// Moves and scales the UVs so that their bounding box starts at 0 and its longer side is 1. Not to be done to UVs
+/// whose boundary the caller has placed. Done twice, it changes nothing the second time.
+fn normalize(uv: &mut VertexData<Vec2>, options: &Options) {
+    let is_placed = options.method != Method::Lscm && matches!(options.boundary, BoundaryShape::Fixed(_));
     let low = uv.iter().copied().reduce(|a, b| a.inf(&b));
     let high = uv.iter().copied().reduce(|a, b| a.sup(&b));
     let Some((low, high)) = low.zip(high) else { return };
     let longer = (high - low).max();
     // A map onto one point stays as it is: measuring it says so.
-    if longer > 0.0 && longer.is_finite() {
+    if options.normalize && !is_placed && longer > 0.0 && longer.is_finite() {
         uv.iter_mut().for_each(|p| *p = (*p - low) / longer);
     }
 }

@@ -43,12 +43,12 @@ fn run(
     options: &OverlapOptions,
 ) -> (VertexData<Vec2>, OverlapReport) {
     let mut moved = uv.clone();
-    let report = remove_overlaps(mesh, &mut moved, options, &()).unwrap();
+    let report = remove_overlaps(mesh, &mut moved, options, &()).expect("options in range");
     (moved, report)
 }
 
 fn flips(mesh: &QuadMesh, uv: &VertexData<Vec2>) -> usize {
-    measure(mesh.view(), &mesh.to_corners(uv)).unwrap().flipped_corners
+    measure(mesh.view(), &mesh.to_corners(uv)).expect("UVs with area").flipped_corners
 }
 
 proptest! {

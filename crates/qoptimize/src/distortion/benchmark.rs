@@ -125,10 +125,9 @@ pub(super) fn benchmark(surface: &Surface<'_>) -> Benchmark {
         fans(surface, run).fold((0.0, 0.0), |(s, p), t| (s + t.space_area, p + t.turn.abs() / 2.0))
     });
     let (space, plane) = totals.iter().fold((0.0, 0.0), |(s, p), part| (s + part.0, p + part.1));
-    if !(space > 0.0 && plane > 0.0) {
-        return Benchmark::default();
-    }
-    let (space, plane) = (f64::sqrt(1.0 / space), f64::sqrt(1.0 / plane));
+    // Without area there is nothing to scale, and the measures say so as they are.
+    let unit = |area: f64| if area > 0.0 { f64::sqrt(1.0 / area) } else { 1.0 };
+    let (space, plane) = (unit(space), unit(plane));
     let mut all = Sums::default();
     for part in by_runs(faces, |run| sums(surface, run, space, plane)) {
         all.triangles += part.triangles;

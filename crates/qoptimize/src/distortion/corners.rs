@@ -37,7 +37,7 @@ pub(super) struct Corner {
 impl<'a> Surface<'a> {
     pub(super) fn new(polygons: PolygonView<'a>, uv: &'a [Vec2]) -> Self {
         let in_space = polygons.corner_vertex.par_iter().map(|&v| polygons.positions[v as usize].amax());
-        let in_plane = uv.par_iter().map(|p| p.amax());
+        let in_plane = uv.par_iter().map(Vec2::amax);
         Self {
             polygons,
             uv,

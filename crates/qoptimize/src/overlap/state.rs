@@ -5,9 +5,6 @@ use robust::{Coord, orient2d};
 
 use super::OverlapOptions;
 
-/// Corner triangles of at most this fraction of the mean area overlap.
-const AREA_TOLERANCE: f64 = 1e-12;
-
 pub(super) struct State<'a> {
     mesh: &'a QuadMesh,
     uv: &'a mut VertexData<Vec2>,
@@ -15,8 +12,6 @@ pub(super) struct State<'a> {
     lambda2: f64,
     /// −1 when the map is mirrored as a whole.
     mirror: f64,
-    /// Areas up to this overlap.
-    tolerance: f64,
     overlaps: CornerData<bool>,
     overlap_count: usize,
     /// Overlapping corner triangles at each vertex.
@@ -27,16 +22,14 @@ pub(super) struct State<'a> {
 
 impl<'a> State<'a> {
     pub(super) fn new(mesh: &'a QuadMesh, uv: &'a mut VertexData<Vec2>, options: &OverlapOptions) -> Self {
-        let areas: Vec<f64> = mesh.corners().map(|corner| area(mesh, uv, corner)).collect();
-        let mirror = if areas.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
-        let mean = areas.iter().map(|area| area.abs()).sum::<f64>() / areas.len() as f64;
+        let total: f64 = mesh.corners().map(|corner| area(mesh, uv, corner)).sum();
+        let mirror = if total < 0.0 { -1.0 } else { 1.0 };
         let mut state = Self {
             mesh,
             uv,
             lambda1: options.lambda1,
             lambda2: options.lambda2,
             mirror,
-            tolerance: AREA_TOLERANCE * mean,
             overlaps: CornerData::filled(mesh.corner_count(), false),
             overlap_count: 0,
             at_vertex: VertexData::filled(mesh.vertex_count(), 0),
@@ -115,7 +108,7 @@ impl<'a> State<'a> {
 
     /// Looks whether the triangle at `corner` overlaps, and appends the vertices that may move from now on.
     fn test(&mut self, corner: CornerId, wake: &mut Vec<VertexId>) {
-        let overlaps = area(self.mesh, self.uv, corner) * self.mirror <= self.tolerance;
+        let overlaps = area(self.mesh, self.uv, corner) * self.mirror <= 0.0;
         if std::mem::replace(&mut self.overlaps[corner], overlaps) == overlaps {
             return;
         }

@@ -260,7 +260,9 @@ pub(crate) fn slow_measures(polygons: PolygonView<'_>, uv: &[Vec2]) -> Measures 
 }
 
 fn face_of(polygons: PolygonView<'_>, corner: usize) -> usize {
-    (0..polygons.face_count()).find(|&f| polygons.corners(f).contains(&corner)).unwrap()
+    (0..polygons.face_count())
+        .find(|&f| polygons.corners(f).contains(&corner))
+        .expect("a corner of some face")
 }
 
 /// The smallest Σ (r x − 1)² over x ≥ 0, by golden-section search: it is convex.

@@ -142,6 +142,11 @@ fn notes(arguments: &UnwrapArgs, typed: &[String]) -> Vec<String> {
         "exponent",
         "weights",
         "mixing",
+        "no-overlap-removal",
+        "lambda1",
+        "lambda2",
+        "order",
+        "max-moves",
     ];
     const REMOVAL: &[&str] = &["remove-fraction", "remove-below", "curvature", "area", "side"];
     let method = arguments.method;

@@ -76,7 +76,7 @@ pub(crate) struct UnwrapArgs {
     pub(crate) side: SideChoice,
 
     /// Exponent r of the edge lengths in the global embedding (Eq. 5)
-    #[arg(long, value_name = "R", default_value = "1", value_parser = finite, allow_negative_numbers = true,
+    #[arg(long, value_name = "R", default_value = "1", value_parser = not_negative,
         help_heading = "Embedding (sections 2.2 and 2.3)")]
     pub(crate) exponent: f64,
     /// Edge weights of the local embedding (Eqs. 6 and 8)
@@ -121,7 +121,8 @@ pub(crate) struct UnwrapArgs {
     #[arg(long, value_name = "N", default_value = "2000", help_heading = "Linear systems")]
     pub(crate) max_iterations: usize,
     /// Threads; 0 takes one per processor. The result is the same for any number
-    #[arg(long, value_name = "N", default_value = "0", help_heading = "Linear systems")]
+    #[arg(long, value_name = "N", default_value = "0", value_parser = thread_count,
+        help_heading = "Linear systems")]
     pub(crate) threads: usize,
 
     /// Print the report as JSON
@@ -241,8 +242,12 @@ fn positive(text: &str) -> Result<f64, String> {
     number(text, |x| x > 0.0 && x.is_finite(), "a number above 0")
 }
 
-fn finite(text: &str) -> Result<f64, String> {
-    number(text, f64::is_finite, "a finite number")
+fn thread_count(text: &str) -> Result<usize, String> {
+    const LIMIT: usize = 1024;
+    match text.parse() {
+        Ok(count) if count <= LIMIT => Ok(count),
+        _ => Err(format!("expected a number of threads up to {LIMIT}")),
+    }
 }
 
 #[cfg(test)]

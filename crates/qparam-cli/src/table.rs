@@ -61,19 +61,20 @@ fn width(text: &str) -> usize {
 
 /// Four significant digits; scientific where that is shorter; a dash where there is no value.
 pub(crate) fn short(value: impl Into<Option<f64>>) -> String {
-    let Some(value) = value.into() else { return "-".to_owned() };
-    let magnitude = value.abs();
+    let Some(value) = value.into() else { return "–".to_owned() };
     if !value.is_finite() {
         return value.to_string();
     }
-    if magnitude == 0.0 {
+    if value == 0.0 {
         return "0".to_owned();
     }
-    if !(1e-4..1e6).contains(&magnitude) {
-        return format!("{value:.3e}");
+    // The exponent after rounding: 0.99999 is shown as 1.000.
+    let scientific = format!("{value:.3e}");
+    let exponent = scientific.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok());
+    match exponent {
+        Some(exponent @ -4..6) => format!("{value:.decimals$}", decimals = (3 - exponent).max(0) as usize),
+        _ => scientific,
     }
-    let decimals = (3 - magnitude.log10().floor() as i32).max(0) as usize;
-    format!("{value:.decimals$}")
 }
 
 /// Digits in groups of three, as people read them.
@@ -104,8 +105,9 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        let shown = [0.0, 1.0, 0.123456, 1234.56, 1.5e-9, 7.25e8, f64::INFINITY].map(short);
-        assert_eq!(shown, ["0", "1.000", "0.1235", "1235", "1.500e-9", "7.250e8", "inf"]);
+        let shown = [0.0, 1.0, 0.99999, 0.123456, 1234.56, 1.5e-9, 7.25e8, f64::INFINITY].map(short);
+        assert_eq!(shown, ["0", "1.000", "1.000", "0.1235", "1235", "1.500e-9", "7.250e8", "inf"]);
+        assert_eq!(short(None), "–");
         assert_eq!([7, 1234, 1_234_567].map(grouped), ["7", "1 234", "1 234 567"]);
         assert_eq!(counted(1, "vertex") + ", " + &counted(2, "vertex"), "1 vertex, 2 vertices");
     }

@@ -1,6 +1,7 @@
 //! Reports: the same figures for machines (JSON) and for people (a table).
 
 use qoptimize::qmesh::obj::UvWriteSummary;
+use qoptimize::qsolve::SolveMethod;
 use qoptimize::{Distortion, RunRecord};
 use serde::Serialize;
 
@@ -142,17 +143,17 @@ fn record_lines(record: &RunRecord) -> Vec<String> {
     }
     for solve in &record.solves {
         lines.push(format!(
-            "{} system: {}, {:?}, relative residual {:.1e}",
+            "{} system: {}, {}, relative residual {:.1e}",
             solve.stage,
             counted(solve.record.unknowns, "unknown"),
-            solve.record.method,
+            solver_name(solve.record.method),
             solve.record.relative_residual
         ));
     }
     if let Some(overlaps) = &record.overlaps {
         let mut line = format!(
-            "overlap removal: {} before, {} after {}",
-            counted(overlaps.before, "flipped corner"),
+            "overlap removal: {} of no positive area before, {} after {}",
+            counted(overlaps.before, "corner triangle"),
             overlaps.after,
             counted(overlaps.moves, "move")
         );
@@ -165,6 +166,15 @@ fn record_lines(record: &RunRecord) -> Vec<String> {
         lines.push(line);
     }
     lines
+}
+
+fn solver_name(method: SolveMethod) -> &'static str {
+    match method {
+        SolveMethod::Cholesky => "Cholesky",
+        SolveMethod::Lu => "LU",
+        SolveMethod::BiCgStab => "BiCGStab",
+        SolveMethod::ConjugateGradient => "conjugate gradients",
+    }
 }
 
 /// Every measure; one column a map.

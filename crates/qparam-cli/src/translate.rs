@@ -1,6 +1,8 @@
 //! Refusals of the libraries in the numbers of the file: counted from 1, with lines.
 
-use qoptimize::qmesh::BuildError;
+use qoptimize::ParameterizeError;
+use qoptimize::qembed::EmbedError;
+use qoptimize::qmesh::{BuildError, QuadMesh, VertexId};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -81,5 +83,50 @@ pub(crate) fn refused(error: &BuildError, input: &Input) -> Failure {
             "give each fan a vertex of its own",
         ),
         other => Failure::new(Exit::Mesh, format!("{}: the faces are no mesh", input.name)).cause(other),
+    }
+}
+
+/// Why there is no map of `mesh`, which was built from `input`.
+pub(crate) fn no_map(error: &ParameterizeError, mesh: &QuadMesh, input: &Input) -> Failure {
+    let number = |vertex: VertexId| mesh.source_vertex(vertex) as usize;
+    let vertex = |vertex: VertexId| {
+        let number = number(vertex);
+        format!("vertex {} (line {})", number + 1, input.document.vertex_line(number))
+    };
+    let edge = |[a, b]: [VertexId; 2]| format!("{}-{}", number(a) + 1, number(b) + 1);
+    let failure = Failure::new(Exit::Computation, format!("{}: no map was found", input.name));
+    let ParameterizeError::Embed(embed) = error else { return failure.cause(error) };
+    match embed {
+        EmbedError::TooManyCorners { vertex: v, count } => failure
+            .note(format!(
+                "the square has four corners, but {count} boundary vertices, among them {}, have a single face, \
+                 which would collapse on a side",
+                vertex(*v)
+            ))
+            .help("use --boundary circle"),
+        EmbedError::ChordOnSide { edge: chord } => failure
+            .note(format!(
+                "the edge between the vertices {} would lie along a side of the square, with faces between",
+                edge(*chord)
+            ))
+            .help("use --boundary circle"),
+        EmbedError::BoundaryFolds { edges: [first, second] } => failure
+            .note(format!(
+                "projected to its best-fit plane, the boundary meets itself at the edges between the vertices {} \
+                 and {}",
+                edge(*first),
+                edge(*second)
+            ))
+            .help("use --boundary circle"),
+        EmbedError::NoPlane => failure
+            .note("the boundary has no best-fit plane, since it encloses no area")
+            .help("use --boundary circle"),
+        EmbedError::FixedNotFinite { vertex: v } => {
+            failure.note(format!("the position given for {} is not finite, or beyond 1e60", vertex(*v)))
+        }
+        EmbedError::Solve(_) => failure
+            .cause(embed)
+            .help("try another --method or --backend; --residual-bound accepts less accurate solutions"),
+        other => failure.cause(other),
     }
 }

@@ -25,6 +25,7 @@ use crate::report::{
     Head, InputReport, Timings, UnwrapReport, is_valid, peak_memory_bytes, unwrap_text, verdict,
 };
 use crate::streams::Streams;
+use crate::translate::no_map;
 
 /// What a run has gathered before it computes.
 struct Job<'a> {
@@ -185,9 +186,7 @@ impl Job<'_> {
         if io.interrupt.is_requested() {
             return Err(Failure::interrupted());
         }
-        let result = result.map_err(|error| {
-            Failure::new(Exit::Computation, format!("{}: no map was found", self.input.name)).cause(&error)
-        })?;
+        let result = result.map_err(|error| no_map(&error, &self.mesh, &self.input))?;
         Ok((result, stages))
     }
 

@@ -2,21 +2,7 @@
 
 mod common;
 
-use common::{Folder, hill};
-
-/// Everything but `vt` lines, and `f` corners without what stands behind the first slash.
-fn without_uv(text: &str) -> String {
-    let lines = text.lines().filter(|line| !line.starts_with("vt "));
-    lines
-        .map(|line| match line.strip_prefix("f ") {
-            Some(corners) => {
-                let first = |corner: &str| corner.split('/').next().unwrap_or_default().to_owned();
-                format!("f {}\n", corners.split(' ').map(first).collect::<Vec<_>>().join(" "))
-            }
-            None => format!("{line}\n"),
-        })
-        .collect()
-}
+use common::{Folder, hill, without_uv};
 
 #[test]
 fn the_output_is_the_input_with_uvs() {

@@ -126,3 +126,17 @@ pub const CUBE: &str = "\
 v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1
 f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8
 ";
+
+/// Everything but `vt` lines, and `f` corners without what stands behind the first slash.
+pub fn without_uv(text: &str) -> String {
+    let lines = text.lines().filter(|line| !line.starts_with("vt "));
+    lines
+        .map(|line| match line.strip_prefix("f ") {
+            Some(corners) => {
+                let first = |corner: &str| corner.split('/').next().unwrap_or_default().to_owned();
+                format!("f {}\n", corners.split(' ').map(first).collect::<Vec<_>>().join(" "))
+            }
+            None => format!("{line}\n"),
+        })
+        .collect()
+}

@@ -18,6 +18,7 @@ mod front;
 mod grid;
 mod head;
 mod heights;
+mod hostile;
 mod implicit;
 mod lattice;
 mod round;
@@ -28,6 +29,7 @@ pub use face::face;
 pub use grid::{graded_grid, grid, jittered_grid};
 pub use head::head;
 pub use heights::{bump, nose, saddle};
+pub use hostile::{Hostility, hostile_disk};
 pub use round::{cap, disk, finger, sphere};
 pub use union::disjoint_union;
 

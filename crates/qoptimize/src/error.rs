@@ -3,6 +3,7 @@
 use qembed::qmesh::VertexId;
 use qembed::{EmbedError, qsimplify::SimplifyError};
 
+use crate::direct::{DescentError, StartError};
 use crate::distortion::MeasureError;
 
 /// Why there is no map.
@@ -37,6 +38,18 @@ pub enum ParameterizeError {
         /// The vertex.
         vertex: VertexId,
     },
+    /// The weight of the symmetric Dirichlet term is negative or not a finite number.
+    #[error("shape is {0}, but must be a finite number of at least 0")]
+    BadShape(f64),
+    /// A tolerance of the descent is negative or not a number.
+    #[error("the relative decrease at which the descent stops is {0}, but must be a number of at least 0")]
+    BadTolerance(f64),
+    /// No first map without flipped corners was found.
+    #[error(transparent)]
+    Start(StartError),
+    /// The descent failed.
+    #[error(transparent)]
+    Descent(#[from] DescentError),
     /// Simplification failed.
     #[error(transparent)]
     Simplify(SimplifyError),
@@ -57,5 +70,11 @@ impl From<SimplifyError> for ParameterizeError {
 impl From<EmbedError> for ParameterizeError {
     fn from(error: EmbedError) -> Self {
         if error == EmbedError::Cancelled { Self::Cancelled } else { Self::Embed(error) }
+    }
+}
+
+impl From<StartError> for ParameterizeError {
+    fn from(error: StartError) -> Self {
+        if error == StartError::Cancelled { Self::Cancelled } else { Self::Start(error) }
     }
 }

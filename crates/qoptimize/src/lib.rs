@@ -30,11 +30,15 @@
 //! [`parameterize`](mod@parameterize) (the whole way) → [`overlap`] (Eqs. 11 and 12) → [`distortion`] (Eqs. 13 and 14, and
 //! the field's measures).
 
+mod convexity;
+pub mod direct;
 pub mod distortion;
 mod error;
 pub mod overlap;
 pub mod parameterize;
 
+pub use convexity::Exempt;
+pub use direct::{AngleTerm, Descent, DirectOptions, DirectReport, StartMethod, Stop};
 pub use distortion::{Benchmark, Distortion, MeasureError, measure};
 pub use error::ParameterizeError;
 pub use overlap::{MoveOrder, OverlapOptions, OverlapReport, remove_overlaps};

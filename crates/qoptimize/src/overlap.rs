@@ -78,9 +78,12 @@ pub struct OverlapReport {
     pub after: usize,
     /// Of those after, how many no interior vertex could mend: all three corners lie on the boundary.
     pub stuck_on_boundary: usize,
+    /// Of those after, how many no map at all could mend: their quad shares its opposite vertices with another, so the
+    /// two cannot both be convex ([`Exempt`](crate::Exempt)). Nothing is moved for their sake.
+    pub impossible: usize,
     /// How many times a vertex was moved.
     pub moves: usize,
-    /// Whether the bound on the moves ended it. If not, and more than `stuck_on_boundary` are left, all vertices that
+    /// Whether the bound on the moves ended it. If not, and more than `stuck_on_boundary` and `impossible` are left, all vertices that
     /// may move have come to rest.
     pub hit_limit: bool,
 }
@@ -134,6 +137,7 @@ pub fn remove_overlaps(
     }
     report.after = state.overlaps();
     report.stuck_on_boundary = state.stuck_on_boundary();
+    report.impossible = state.impossible();
     watch(1.0)?;
     Ok(report)
 }

@@ -11,6 +11,7 @@ use qembed::{
     embed, embed_classic,
 };
 
+use crate::direct::{self, DirectOptions, DirectReport, Objective};
 use crate::distortion::{Distortion, measure};
 use crate::error::ParameterizeError;
 use crate::overlap::{OverlapOptions, OverlapReport, remove_overlaps};
@@ -24,6 +25,10 @@ pub enum Method {
     /// The paper's stages.
     #[default]
     Paper,
+    /// The errors themselves minimised over injective maps with a free boundary: see [`crate::direct`].
+    Direct,
+    /// `q · MIPS + (1 − q) · (det + 1/det)/2` in the same way.
+    Conformal,
     /// Tutte 1963.
     Uniform,
     /// Floater 2003.
@@ -55,6 +60,8 @@ pub struct Options {
     pub mixing: Mixing,
     /// Section 2.4; `None` leaves overlaps as they are. Classic methods always do: they are there to compare with.
     pub overlaps: Option<OverlapOptions>,
+    /// What [`Method::Direct`] and [`Method::Conformal`] need besides `q`.
+    pub direct: DirectOptions,
     /// How linear systems are solved.
     pub solve: SolveOptions,
     /// Whether the UVs are moved and scaled so that their bounding box starts at 0 and its longer side is 1. Default true;
@@ -73,6 +80,7 @@ impl Default for Options {
             weights: Weights::default(),
             mixing: Mixing::default(),
             overlaps: Some(OverlapOptions::default()),
+            direct: DirectOptions::default(),
             solve: SolveOptions::default(),
             normalize: true,
         }
@@ -92,7 +100,7 @@ pub struct Parameterization {
 }
 
 /// What ran, with which reading of the paper, and what it met.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct RunRecord {
@@ -110,6 +118,8 @@ pub struct RunRecord {
     pub solves: Vec<StageSolve>,
     /// Overlap removal, when it ran.
     pub overlaps: Option<OverlapReport>,
+    /// Start and descent, when a method minimised an energy.
+    pub direct: Option<DirectReport>,
 }
 
 /// The whole way: section 2 of the paper, or a classic baseline, with measures.
@@ -137,6 +147,7 @@ pub fn parameterize(
     let unit_mesh = in_own_unit(mesh, options.mixing);
     let (uv, record) = match options.method {
         Method::Paper => paper(&unit_mesh, options, observer)?,
+        Method::Direct | Method::Conformal => direct(&unit_mesh, options, observer)?,
         Method::Uniform => classic(&unit_mesh, Classic::Uniform, options, observer)?,
         Method::MeanValue => classic(&unit_mesh, Classic::MeanValue, options, observer)?,
         Method::Harmonic => classic(&unit_mesh, Classic::Harmonic, options, observer)?,
@@ -157,6 +168,7 @@ impl Options {
         if !(self.exponent >= 0.0 && self.exponent.is_finite()) {
             return Err(EmbedError::BadExponent(self.exponent).into());
         }
+        self.direct.check()?;
         self.overlaps.as_ref().map_or(Ok(()), OverlapOptions::check)
     }
 }
@@ -212,6 +224,26 @@ fn paper(mesh: &QuadMesh, options: &Options, observer: &dyn Observer) -> Result<
     Ok((embedding.uv, record))
 }
 
+/// A start, and the descent from it. Its boundary is free, whatever `options.boundary` says.
+fn direct(mesh: &QuadMesh, options: &Options, observer: &dyn Observer) -> Result<Placed, ParameterizeError> {
+    let objective = match options.method {
+        Method::Conformal => Objective::Conformal { q: options.q },
+        _ => Objective::Direct {
+            q: options.q,
+            shape: options.direct.shape,
+            angle_term: options.direct.angle_term,
+        },
+    };
+    let (mut uv, report) = direct::embed(mesh, &objective, &options.direct.descent, observer)?;
+    normalize(&mut uv, options);
+    let record = RunRecord {
+        interior_vertices: interior_vertices(mesh),
+        direct: Some(report),
+        ..RunRecord::default()
+    };
+    Ok((uv, record))
+}
+
 fn classic(
     mesh: &QuadMesh,
     method: Classic,
@@ -227,21 +259,27 @@ fn classic(
 impl RunRecord {
     fn new(mesh: &QuadMesh, embedding: &Embedding) -> Self {
         Self {
-            interior_vertices: mesh.vertices().filter(|&vertex| !mesh.is_boundary(vertex)).count(),
+            interior_vertices: interior_vertices(mesh),
             removal_candidates: 0,
             removed_vertices: 0,
             cut_off_vertices: embedding.cut_off,
             negative_weights: embedding.negative_weights,
             solves: embedding.solves.clone(),
             overlaps: None,
+            direct: None,
         }
     }
+}
+
+fn interior_vertices(mesh: &QuadMesh) -> usize {
+    mesh.vertices().filter(|&vertex| !mesh.is_boundary(vertex)).count()
 }
 
 /// Moves and scales the UVs so that their bounding box starts at 0 and its longer side is 1. Not to be done to UVs
 /// whose boundary the caller has placed. Done twice, it changes nothing the second time.
 fn normalize(uv: &mut VertexData<Vec2>, options: &Options) {
-    let is_placed = options.method != Method::Lscm && matches!(options.boundary, BoundaryShape::Fixed(_));
+    let is_free = matches!(options.method, Method::Lscm | Method::Direct | Method::Conformal);
+    let is_placed = !is_free && matches!(options.boundary, BoundaryShape::Fixed(_));
     let low = uv.iter().copied().reduce(|a, b| a.inf(&b));
     let high = uv.iter().copied().reduce(|a, b| a.sup(&b));
     let Some((low, high)) = low.zip(high) else { return };

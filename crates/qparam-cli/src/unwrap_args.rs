@@ -191,6 +191,7 @@ impl UnwrapArgs {
                 residual_bound: self.residual_bound,
                 max_iterations: self.max_iterations,
             },
+            direct: qoptimize::DirectOptions::default(),
             normalize: !self.no_normalize,
         })
     }

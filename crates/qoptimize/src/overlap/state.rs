@@ -4,12 +4,15 @@ use qembed::qmesh::{CornerData, CornerId, QuadMesh, Vec2, VertexData, VertexId};
 use robust::{Coord, orient2d};
 
 use super::OverlapOptions;
+use crate::convexity::Exempt;
 
 pub(super) struct State<'a> {
     mesh: &'a QuadMesh,
     uv: &'a mut VertexData<Vec2>,
     lambda1: f64,
     lambda2: f64,
+    /// Quads that no map can make convex: moving around them would never end.
+    exempt: Exempt,
     /// −1 when the map is mirrored as a whole.
     mirror: f64,
     overlaps: CornerData<bool>,
@@ -24,11 +27,13 @@ impl<'a> State<'a> {
     pub(super) fn new(mesh: &'a QuadMesh, uv: &'a mut VertexData<Vec2>, options: &OverlapOptions) -> Self {
         let total: f64 = mesh.corners().map(|corner| area(mesh, uv, corner)).sum();
         let mirror = if total < 0.0 { -1.0 } else { 1.0 };
+        let any = mesh.corners().any(|corner| area(mesh, uv, corner) * mirror <= 0.0);
         let mut state = Self {
             mesh,
             uv,
             lambda1: options.lambda1,
             lambda2: options.lambda2,
+            exempt: if any { Exempt::find(mesh) } else { Exempt::default() },
             mirror,
             overlaps: CornerData::filled(mesh.corner_count(), false),
             overlap_count: 0,
@@ -48,6 +53,12 @@ impl<'a> State<'a> {
     pub(super) fn stuck_on_boundary(&self) -> usize {
         let stuck = |corner| self.triangle(corner).iter().all(|&v| self.mesh.is_boundary(v));
         self.mesh.corners().filter(|&corner| self.overlaps[corner] && stuck(corner)).count()
+    }
+
+    /// Those of quads that cannot be convex in any map, away from the vertices that they share.
+    pub(super) fn impossible(&self) -> usize {
+        let exempt = |&corner: &CornerId| self.overlaps[corner] && self.exempt.is_exempt(self.mesh, corner);
+        if self.exempt.is_empty() { 0 } else { self.mesh.corners().filter(exempt).count() }
     }
 
     /// Whether `vertex` may move: it is not on the boundary, and it or an immediate neighbour overlaps.
@@ -113,6 +124,9 @@ impl<'a> State<'a> {
             return;
         }
         self.overlap_count = if overlaps { self.overlap_count + 1 } else { self.overlap_count - 1 };
+        if self.exempt.is_exempt(self.mesh, corner) {
+            return;
+        }
         for vertex in self.triangle(corner) {
             if self.mesh.is_boundary(vertex) {
                 continue;

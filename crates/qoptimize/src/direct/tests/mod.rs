@@ -1,0 +1,5 @@
+//! What the energy promises.
+
+mod derivatives;
+mod ellipticity;
+mod existence;

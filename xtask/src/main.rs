@@ -20,11 +20,18 @@ const TASKS: &[(&str, &str, Task)] = &[
         "regenerate fixtures/ from formulas, byte for byte; --check compares instead",
         fixtures::run,
     ),
-    ("tidy", "house rules: the chain of crates, module headers, every equation cited", tidy::run),
+    (
+        "readings",
+        "the tables behind docs/paper.md; --check compares them, --times prints ratios of times",
+        readings::run,
+    ),
+    ("tidy", "house rules: the chain of crates, module headers, every equation cited, links", tidy::run),
 ];
 
 mod compare;
 mod fixtures;
+mod links;
+mod readings;
 mod tidy;
 
 fn main() -> ExitCode {

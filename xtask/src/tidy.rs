@@ -1,7 +1,7 @@
 //! House rules that no compiler checks.
 //!
-//! The chain of crates holds, every module says what it is for, files stay short, and every equation of the
-//! paper is cited in the crate that computes it.
+//! The chain of crates holds, every module says what it is for, files stay short, every equation of the paper is
+//! cited in the crate that computes it, and links between files lead somewhere.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -45,6 +45,7 @@ fn check(root: &Path) -> Result<Vec<String>, String> {
             faults.extend(file_faults(&shown, &read(&path)?));
         }
     }
+    faults.extend(crate::links::faults(root)?);
     for (name, equations) in EQUATIONS {
         let mut text = String::new();
         for path in rust_files(&root.join("crates").join(name).join("src"))? {

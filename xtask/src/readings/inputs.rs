@@ -2,7 +2,7 @@
 
 use qparam_cli::qembed::{BoundaryShape, Weights};
 use qparam_cli::qmesh::{QuadMesh, VertexData, VertexId, shapes};
-use qparam_cli::qoptimize::{Distortion, Options, OverlapReport, Parameterization, parameterize};
+use qparam_cli::qoptimize::{Distortion, Method, Options, OverlapReport, Parameterization, parameterize};
 use qparam_cli::qsimplify::{RemovalRule, SimplifyOptions, Threshold};
 
 use super::random::Random;
@@ -22,8 +22,8 @@ pub(super) fn legend() -> String {
         "*face* is `qmesh::shapes::face(3)` ({}), *head* is `head(2)` ({}): the meshes of `fixtures/`. E13 and E14 are the \
          sums of Eqs. 13 and 14 over all corners, signed areas, total areas made equal. *Flips* are corner triangles of no \
          positive area. Unless said: circle, r = 1, q = 0.5, `star4`, rows normalised, no overlap removal. As \
-         divisors angles count at least 1e-9 and areas 1e-12 of the mean; sums beyond 1e15 only say that this happened. In \
-         such maps rounding decides which corners flip, so they are not counted: *some*.\n",
+         divisors angles count at least 1e-9 and areas 1e-12 of the mean; sums beyond 1e15 only say that this happened. Where \
+         rounding decides which corners flip they are not counted, and the cell says *rounding*.\n",
         about(&face),
         about(&head)
     )
@@ -36,7 +36,7 @@ pub(super) fn interior(mesh: &QuadMesh) -> usize {
 /// The paper's options with this rule and this fraction, without section 2.4.
 pub(super) fn paper(rule: RemovalRule, fraction: f64) -> Options {
     let simplify = SimplifyOptions { rule, threshold: Threshold::Fraction(fraction), ..Default::default() };
-    Options { simplify, overlaps: None, ..Default::default() }
+    Options { method: Method::Paper, simplify, overlaps: None, ..Default::default() }
 }
 
 pub(super) fn run(mesh: &QuadMesh, options: &Options) -> Result<Parameterization, String> {
@@ -49,9 +49,10 @@ pub(super) fn mended(mesh: &QuadMesh, options: &Options) -> Result<Vec<String>, 
     let after = run(mesh, &Options { overlaps: Some(Default::default()), ..options.clone() })?;
     let report = after.record.overlaps.ok_or("section 2.4 did not run")?;
     let mut cells = sums(&before).to_vec();
-    if before.flipped_corners > 0 && before.area_error > MEANINGLESS {
+    let naive = options.simplify.rule == RemovalRule::Naive;
+    if before.area_error > MEANINGLESS && (naive || before.flipped_corners > 0) {
         let flips = if after.distortion.flipped_corners > 0 { "some" } else { "0" };
-        cells.extend(["some", "some", flips, "–", "–"].map(str::to_owned));
+        cells.extend(["rounding", "rounding", flips, "–", "–"].map(str::to_owned));
     } else {
         let flips = [before.flipped_corners, after.distortion.flipped_corners].map(|count| count.to_string());
         let [flips_before, flips_after] = flips;

@@ -11,7 +11,7 @@ fn contestants() -> Vec<(&'static str, Options)> {
     let q = |q: f64, options: Options| Options { q, ..options };
     let overlaps = |options: Options| Options { overlaps: Some(Default::default()), ..options };
     vec![
-        ("paper, guarded (default)", Options::default()),
+        ("paper, guarded 0.5", with(Method::Paper)),
         ("paper, ring 0.7, with 2.4", overlaps(paper(RemovalRule::Ring, 0.7))),
         ("paper, all, q = 1", q(1.0, paper(RemovalRule::All, 1.0))),
         ("paper, all", paper(RemovalRule::All, 1.0)),

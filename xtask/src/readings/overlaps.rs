@@ -15,7 +15,7 @@ use super::table::{Table, digits};
 const LAMBDAS: [[f64; 2]; 3] = [[0.9, 0.0], [0.6, 0.3], [0.3, 0.6]];
 const MOVES_PER_VERTEX: f64 = 30.0;
 /// How far the middle is twisted.
-const TURNS: f64 = 0.6;
+const TURNS: f64 = 1.0;
 
 pub(super) fn section() -> Result<String, String> {
     let mut table = Table::new(
@@ -50,7 +50,7 @@ pub(super) fn section() -> Result<String, String> {
     Ok(format!(
         "A valid map (rule `all`, circle) spoilt: every interior vertex moved at random by up to half or three times the \
          mean edge in each direction (*noise*), 20 vertices thrown anywhere into the disk (*spikes*), every point at distance ρ from the \
-         centre turned by 0.6 (1 − ρ) turns (*twist*); and the maps that rules `ring` (70 % removed) and `naive` (10 %) give. *Ratio* is the moves of first come over those of worst first, *left* \
+         centre turned by 1 − ρ turns (*twist*); and the maps that rules `ring` (70 % removed) and `naive` (10 %) give. *Ratio* is the moves of first come over those of worst first, *left* \
          are flips at the end, for both orders. Overlaps are tested after every move; at most 30 moves a \
          vertex.\n\n{}",
         table.text()
@@ -87,13 +87,17 @@ fn starts(mesh: &QuadMesh) -> Result<Vec<(&'static str, VertexData<Vec2>)>, Stri
     ])
 }
 
-/// Sections 2.1 to 2.3. Rounded to 1e-9, so that the last digits of a solver decide no order of moves.
+/// Sections 2.1 to 2.3.
 fn map(mesh: &QuadMesh, rule: RemovalRule, fraction: f64) -> Result<VertexData<Vec2>, String> {
     let options = SimplifyOptions { rule, threshold: Threshold::Fraction(fraction), ..Default::default() };
     let simplified = simplify(mesh, &options, &()).map_err(|error| error.to_string())?;
     let embedding = embed(mesh, &simplified, &Default::default(), &()).map_err(|error| error.to_string())?;
-    let rounded = |x: f64| (x * 1e9).round() / 1e9;
-    Ok(mesh.vertex_data(|vertex| embedding.uv[vertex].map(rounded)))
+    Ok(mesh.vertex_data(|vertex| rounded(embedding.uv[vertex])))
+}
+
+/// To 1e-9, so that the last digits of a solver or of a sine decide no order of moves.
+fn rounded(uv: Vec2) -> Vec2 {
+    uv.map(|x| (x * 1e9).round() / 1e9)
 }
 
 fn noise(mesh: &QuadMesh, uv: &VertexData<Vec2>, amount: f64) -> VertexData<Vec2> {
@@ -123,6 +127,6 @@ fn twist(mesh: &QuadMesh, uv: &VertexData<Vec2>) -> VertexData<Vec2> {
     mesh.vertex_data(|vertex| {
         let p = uv[vertex];
         let (sine, cosine) = (TAU * TURNS * (1.0 - p.norm())).sin_cos();
-        Vec2::new(cosine * p.x - sine * p.y, sine * p.x + cosine * p.y)
+        rounded(Vec2::new(cosine * p.x - sine * p.y, sine * p.x + cosine * p.y))
     })
 }

@@ -43,7 +43,7 @@ pub(crate) fn read(
 fn is_obj(bytes: &[u8]) -> bool {
     bytes
         .split(|&byte| byte == b'\n')
-        .map(|line| line.trim_ascii())
+        .map(<[u8]>::trim_ascii)
         .any(|line| line.starts_with(b"v ") || line.starts_with(b"v\t") || line.starts_with(b"f "))
 }
 

@@ -177,10 +177,13 @@ fn solver_name(method: SolveMethod) -> &'static str {
     }
 }
 
+/// A label and the cell under a map.
+type Row<'a> = (&'a str, &'a dyn Fn(&Distortion) -> String);
+
 /// Every measure; one column a map.
 pub(crate) fn distortion_table(maps: &[(String, &Distortion)]) -> Table {
     let mut table = Table::new(maps.iter().map(|(name, _)| name.clone()).collect());
-    let mut section = |title: &str, rows: &[(&str, &dyn Fn(&Distortion) -> String)]| {
+    let mut section = |title: &str, rows: &[Row<'_>]| {
         table.section(title);
         for (label, value) in rows {
             table.row(label, maps.iter().map(|(_, distortion)| value(distortion)).collect());

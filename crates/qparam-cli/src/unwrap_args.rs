@@ -200,7 +200,8 @@ impl UnwrapArgs {
     fn check(&self) -> Result<(), Failure> {
         let refuse = |message: String, help: &str| Err(Failure::new(Exit::Usage, message).help(help));
         let sum = self.lambda1 + self.lambda2;
-        if !self.no_overlap_removal && !(sum > 0.0 && sum < 1.0) {
+        let in_range = sum > 0.0 && sum < 1.0;
+        if !self.no_overlap_removal && !in_range {
             return refuse(
                 format!("--lambda1 {} and --lambda2 {} add up to {sum}", self.lambda1, self.lambda2),
                 "Eq. 11 needs 0 < λ1 + λ2 < 1, for example --lambda1 0.6 --lambda2 0.3",

@@ -110,11 +110,9 @@ fn manifest_faults(name: &str, predecessor: Option<&str>, text: &str) -> Result<
     {
         faults.push(format!("crates/{name}/Cargo.toml: [dependencies] lacks {before}, its predecessor"));
     }
-    for key in ["lints"] {
-        let workspace = table(key).and_then(|table| table.get("workspace")).and_then(toml::Value::as_bool);
-        if workspace != Some(true) {
-            faults.push(format!("crates/{name}/Cargo.toml: add `[lints] workspace = true`"));
-        }
+    let lints = table("lints").and_then(|table| table.get("workspace")).and_then(toml::Value::as_bool);
+    if lints != Some(true) {
+        faults.push(format!("crates/{name}/Cargo.toml: add `[lints] workspace = true`"));
     }
     Ok(faults)
 }
@@ -184,7 +182,7 @@ fn equation_list(text: &str) -> Vec<u32> {
         let Ok(number) = rest[..digits].parse::<u32>() else { return list };
         match list.last() {
             Some(&first) if range && first < number && number - first < 100 => {
-                list.extend(first + 1..=number)
+                list.extend(first + 1..=number);
             }
             _ => list.push(number),
         }

@@ -1,5 +1,7 @@
 //! Bad input gets one clear message with its place and the way out, a documented exit code, and no output.
 
+#![allow(clippy::unwrap_used, reason = "a failing unwrap fails the test")]
+
 mod common;
 
 use common::{CUBE, Folder, hill};

@@ -1,5 +1,7 @@
 //! Files are replaced as a whole or not at all.
 
+#![allow(clippy::unwrap_used, reason = "a failing unwrap fails the test")]
+
 mod common;
 
 use std::process::Stdio;

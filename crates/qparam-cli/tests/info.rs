@@ -1,5 +1,7 @@
 //! `qparam info`: what a mesh is, also when `unwrap` refuses it.
 
+#![allow(clippy::unwrap_used, reason = "a failing unwrap fails the test")]
+
 mod common;
 
 use common::{CUBE, Folder, hill};

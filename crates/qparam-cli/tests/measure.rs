@@ -1,5 +1,7 @@
 //! `qparam measure`: figures for UVs that a file already has.
 
+#![allow(clippy::unwrap_used, reason = "a failing unwrap fails the test")]
+
 mod common;
 
 use common::{Folder, flat_with_uv, hill};

@@ -1,5 +1,7 @@
 //! What people read first: help, and complaints about the command line and the configuration.
 
+#![allow(clippy::unwrap_used, reason = "a failing unwrap fails the test")]
+
 mod common;
 
 use common::{Folder, hill};

@@ -15,6 +15,7 @@ const TASKS: &[(&str, &str, Task)] = &[
         "league table of qparam and its rivals on the same meshes (fetches the rivals)",
         compare::run,
     ),
+    ("figure", "draw docs/figures/head-face.svg anew; --check compares instead", figure::run),
     (
         "fixtures",
         "regenerate fixtures/ from formulas, byte for byte; --check compares instead",
@@ -29,6 +30,7 @@ const TASKS: &[(&str, &str, Task)] = &[
 ];
 
 mod compare;
+mod figure;
 mod fixtures;
 mod links;
 mod readings;

@@ -26,6 +26,11 @@ const TASKS: &[(&str, &str, Task)] = &[
         "the tables behind docs/paper.md; --check compares them, --times prints ratios of times",
         readings::run,
     ),
+    (
+        "sweep",
+        "distortion tables in the form of Table 1, into fixtures/tables/ and README.md; --check compares",
+        sweep::run,
+    ),
     ("tidy", "house rules: the chain of crates, module headers, every equation cited, links", tidy::run),
 ];
 
@@ -34,6 +39,7 @@ mod figure;
 mod fixtures;
 mod links;
 mod readings;
+mod sweep;
 mod tidy;
 
 fn main() -> ExitCode {

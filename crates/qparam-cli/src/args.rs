@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use crate::exit;
-pub(crate) use crate::unwrap_args::UnwrapArgs;
+pub(crate) use crate::unwrap_args::{MapArgs, UnwrapArgs, unit};
 
 /// UV maps for quad meshes.
 ///
@@ -23,6 +23,8 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Compute UVs and write them into a copy of the file
     Unwrap(UnwrapArgs),
+    /// Map one mesh with several q: the trade-off between angles and areas, and its knee
+    Sweep(SweepArgs),
     /// Measure the UVs that files already have, side by side
     Measure(MeasureArgs),
     /// Say what a mesh is: counts, topology, what is odd
@@ -37,6 +39,32 @@ pub(crate) enum Command {
         /// The page of this command; without it, the page of qparam itself
         command: Option<String>,
     },
+}
+
+/// Map one mesh with several q, in the form of the paper's Table 1, and name the knee of the trade-off.
+///
+/// No UVs are written. q moves the methods that mix angle-true and area-true weights; for the others all columns
+/// are alike.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = exit::TABLE)]
+pub(crate) struct SweepArgs {
+    /// The quad mesh, an OBJ file; `-` is standard input
+    #[arg(value_name = "MESH.obj")]
+    pub(crate) input: PathBuf,
+    /// Also write the figures as CSV, one line a q, in full precision; `-` is standard output (the table then goes
+    /// to standard error)
+    #[arg(long, value_name = "FILE", help_heading = "Files")]
+    pub(crate) csv: Option<PathBuf>,
+    /// The values of q, in the order of the columns
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "1,0.8,0.5,0.2,0", value_parser = unit,
+        help_heading = "Method")]
+    pub(crate) q: Vec<f64>,
+    #[command(flatten)]
+    pub(crate) map: MapArgs,
+
+    /// Print the report as JSON
+    #[arg(long, help_heading = "Report")]
+    pub(crate) json: bool,
 }
 
 /// Measure the UVs that files already have, whoever made them.

@@ -1,4 +1,4 @@
-//! Defaults for `unwrap` from a file, and the command line that results.
+//! Defaults for `unwrap` and `sweep` from a file, and the command line that results.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -41,6 +41,10 @@ impl From<clap::Error> for ParseFailure {
 
 /// Options that exclude each other: naming one on the command line silences the other in the file.
 const RIVALS: &[[&str; 2]] = &[["remove-fraction", "remove-below"], ["json", "quiet"]];
+/// The commands that make maps; the file's keys are the options of the first.
+const MAPPING: [&str; 2] = ["unwrap", "sweep"];
+/// Options that mean something else, or nothing, to `sweep`.
+const NOT_FOR_SWEEP: &[&str] = &["q", "json", "quiet"];
 /// Options about one run, not about habits.
 const NOT_IN_FILES: &[&str] = &["output", "simplified", "config", "no-config", "help", "version"];
 
@@ -48,9 +52,10 @@ const NOT_IN_FILES: &[&str] = &["output", "simplified", "config", "no-config", "
 pub(crate) fn parse(mut arguments: Vec<OsString>, environment: &Environment) -> Result<Parsed, ParseFailure> {
     let matches = Cli::command().try_get_matches_from(&arguments)?;
     let mut typed = Vec::new();
-    if let Some(unwrap) = matches.subcommand_matches("unwrap") {
-        typed = typed_options(unwrap);
-        let defaults = defaults(unwrap, &typed, environment).map_err(ParseFailure::Config)?;
+    if let Some((name, map)) = matches.subcommand().filter(|(name, _)| MAPPING.contains(name)) {
+        typed = typed_options(map);
+        let left_out = if name == "sweep" { NOT_FOR_SWEEP } else { &[] };
+        let defaults = defaults(map, &typed, left_out, environment).map_err(ParseFailure::Config)?;
         // The subcommand comes second: nothing may stand before it but the program.
         arguments.splice(2..2, defaults);
     }
@@ -79,6 +84,7 @@ fn known_options() -> Vec<String> {
 fn defaults(
     unwrap: &ArgMatches,
     typed: &[String],
+    left_out: &[&str],
     environment: &Environment,
 ) -> Result<Vec<OsString>, Failure> {
     if unwrap.get_flag("no_config") {
@@ -106,7 +112,7 @@ fn defaults(
             name == key
                 || RIVALS.iter().any(|pair| pair.contains(&name.as_str()) && pair.contains(&key.as_str()))
         };
-        if !typed.iter().any(silenced) {
+        if !left_out.contains(&key.as_str()) && !typed.iter().any(silenced) {
             arguments.extend(argument);
         }
     }
@@ -197,7 +203,7 @@ mod tests {
     #[test]
     fn the_command_line_wins_over_the_file_and_the_file_over_the_defaults() {
         let unwrap = with_file("q = 0.25\nexponent = 2\n", &["--q", "1"]).unwrap();
-        assert_eq!((unwrap.q, unwrap.exponent), (1.0, 2.0));
+        assert_eq!((unwrap.q, unwrap.map.exponent), (1.0, 2.0));
     }
 
     /// Naming one of two exclusive options is no conflict with the other one in the file.
@@ -205,7 +211,7 @@ mod tests {
     fn rivals_on_the_command_line_silence_the_file() {
         let unwrap =
             with_file("remove-fraction = 0.1\njson = true", &["--remove-below=2", "--quiet"]).unwrap();
-        assert_eq!((unwrap.remove_below, unwrap.json, unwrap.quiet), (Some(2.0), false, true));
+        assert_eq!((unwrap.map.remove_below, unwrap.json, unwrap.quiet), (Some(2.0), false, true));
     }
 
     #[test]

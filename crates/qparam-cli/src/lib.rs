@@ -43,6 +43,9 @@ mod translate;
 
 mod info;
 mod measure;
+pub mod sweep;
+mod sweep_command;
+mod threads;
 mod unwrap;
 
 mod pages;
@@ -62,7 +65,7 @@ pub use qoptimize::{self, qcurv, qembed, qmesh, qsimplify, qsolve};
 pub use report::SCHEMA_VERSION;
 pub use streams::Streams;
 
-use args::{Command, InfoArgs, MeasureArgs, UnwrapArgs};
+use args::{Command, InfoArgs, MeasureArgs, SweepArgs, UnwrapArgs};
 use config::{ParseFailure, Parsed};
 
 /// Runs a command line; its first word is the program's name.
@@ -80,6 +83,10 @@ pub fn run(
         Command::Unwrap(arguments) => {
             let UnwrapArgs { json, .. } = arguments;
             (unwrap::run(&arguments, &typed, streams), json.then_some("unwrap"))
+        }
+        Command::Sweep(arguments) => {
+            let SweepArgs { json, .. } = arguments;
+            (sweep_command::run(&arguments, streams), json.then_some("sweep"))
         }
         Command::Measure(arguments) => {
             let MeasureArgs { json, .. } = arguments;

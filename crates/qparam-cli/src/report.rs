@@ -1,10 +1,12 @@
 //! Reports: the same figures for machines (JSON) and for people (a table).
 
+use qoptimize::qmesh::QuadMesh;
 use qoptimize::qmesh::obj::UvWriteSummary;
 use qoptimize::qsolve::SolveMethod;
 use qoptimize::{Distortion, RunRecord};
 use serde::Serialize;
 
+use crate::input::Input;
 use crate::progress::StageTime;
 use crate::table::{Table, counted, short};
 
@@ -37,6 +39,34 @@ pub(crate) struct InputReport {
     pub(crate) triangles: usize,
     pub(crate) quads: usize,
     pub(crate) polygons: usize,
+}
+
+impl InputReport {
+    pub(crate) fn of(mesh: &QuadMesh, input: &Input) -> Self {
+        let counts = mesh.face_counts();
+        Self {
+            file: input.name.clone(),
+            vertices: mesh.source_vertex_count(),
+            unused_vertices: mesh.source_vertex_count() - mesh.vertex_count(),
+            edges: mesh.edge_count(),
+            boundary_edges: mesh.halfedge_count() - mesh.corner_count(),
+            faces: mesh.face_count(),
+            triangles: counts.triangles,
+            quads: counts.quads,
+            polygons: counts.polygons,
+        }
+    }
+
+    /// Name and counts, in one line.
+    pub(crate) fn line(&self) -> String {
+        let faces = [(self.triangles, "triangle"), (self.quads, "quad"), (self.polygons, "polygon")]
+            .into_iter()
+            .filter(|&(count, _)| count > 0)
+            .map(|(count, noun)| counted(count, noun))
+            .collect::<Vec<_>>()
+            .join(", ");
+        format!("{}: {}, {faces}\n", self.file, counted(self.vertices, "vertex"))
+    }
 }
 
 /// Seconds of wall time.
@@ -91,14 +121,7 @@ pub(crate) fn verdict(distortion: &Distortion) -> String {
 
 /// The table of `unwrap`.
 pub(crate) fn unwrap_text(report: &UnwrapReport<'_>, method: &str, color: bool) -> String {
-    let input = &report.input;
-    let faces = [(input.triangles, "triangle"), (input.quads, "quad"), (input.polygons, "polygon")]
-        .into_iter()
-        .filter(|&(count, _)| count > 0)
-        .map(|(count, noun)| counted(count, noun))
-        .collect::<Vec<_>>()
-        .join(", ");
-    let mut text = format!("{}: {}, {faces}\n", input.file, counted(input.vertices, "vertex"));
+    let mut text = report.input.line();
     text += &format!("{method}\n");
     for line in record_lines(report.record) {
         text += &format!("  {line}\n");

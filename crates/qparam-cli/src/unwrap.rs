@@ -10,7 +10,7 @@ use qoptimize::qmesh::obj::{UvWriteSummary, write_obj};
 use qoptimize::qsimplify::{SimplifyError, simplify};
 use qoptimize::{Options, Parameterization, parameterize};
 
-use crate::args::UnwrapArgs;
+use crate::args::{MapArgs, UnwrapArgs};
 use crate::boundary;
 use crate::choices::{MethodChoice, RuleChoice};
 use crate::disk::require_disk;
@@ -25,6 +25,7 @@ use crate::report::{
     Head, InputReport, Timings, UnwrapReport, is_valid, peak_memory_bytes, unwrap_text, verdict,
 };
 use crate::streams::Streams;
+use crate::threads;
 use crate::translate::no_map;
 
 /// What a run has gathered before it computes.
@@ -58,7 +59,8 @@ pub(crate) fn run(arguments: &UnwrapArgs, typed: &[String], io: &mut Streams<'_>
         require_disk(&mesh, &input)?;
         Ok(mesh)
     })?;
-    if let (BoundaryShape::Fixed(positions), Some(path)) = (&mut options.boundary, &arguments.boundary_uv) {
+    if let (BoundaryShape::Fixed(positions), Some(path)) = (&mut options.boundary, &arguments.map.boundary_uv)
+    {
         *positions = boundary::read(path, io.stdin, &mesh, &input)?;
     }
     let job = Job { arguments, options, input, mesh, target };
@@ -115,7 +117,7 @@ fn refuse_clashes(
             "name two different files with -o and --simplified",
         );
     }
-    if dash(Some(&arguments.input)) && dash(arguments.boundary_uv.as_ref()) {
+    if dash(Some(&arguments.input)) && dash(arguments.map.boundary_uv.as_ref()) {
         return refuse(
             "standard input cannot be read twice",
             "name a file for the mesh or for --boundary-uv",
@@ -150,7 +152,7 @@ fn notes(arguments: &UnwrapArgs, typed: &[String]) -> Vec<String> {
         "max-moves",
     ];
     const REMOVAL: &[&str] = &["remove-fraction", "remove-below", "curvature", "area", "side"];
-    let method = arguments.method;
+    let method = arguments.map.method;
     let unread = |name: &str| {
         if method != MethodChoice::Paper && PAPER_ONLY.contains(&name) {
             return Some("the method is not `paper`");
@@ -158,31 +160,24 @@ fn notes(arguments: &UnwrapArgs, typed: &[String]) -> Vec<String> {
         if method == MethodChoice::Lscm && name == "boundary" {
             return Some("the boundary of lscm is free");
         }
-        if method == MethodChoice::Paper && arguments.rule == RuleChoice::None {
+        if method == MethodChoice::Paper && arguments.map.rule == RuleChoice::None {
             return (REMOVAL.contains(&name) || ["q", "weights", "mixing"].contains(&name))
                 .then_some("--rule none removes no vertex");
         }
         let overlaps = ["lambda1", "lambda2", "order", "max-moves"];
-        (arguments.no_overlap_removal && overlaps.contains(&name)).then_some("overlaps are left as they are")
+        (arguments.map.no_overlap_removal && overlaps.contains(&name))
+            .then_some("overlaps are left as they are")
     };
     typed.iter().filter_map(|name| Some(format!("--{name} has no effect: {}", unread(name)?))).collect()
 }
 
 impl Job<'_> {
     fn compute(&self, io: &Streams<'_>) -> Result<(Parameterization, Vec<StageTime>), Failure> {
-        let threads = self.arguments.threads;
         let watch = Watch::new(io.interrupt, io.stderr_is_terminal && !self.arguments.quiet);
         let work = || parameterize(&self.mesh, &self.options, &watch);
-        let result = io.interrupt.during(Phase::Watched, || match threads {
-            0 => Ok(work()),
-            _ => rayon::ThreadPoolBuilder::new().num_threads(threads).build().map(|pool| pool.install(work)),
-        });
+        let result = io.interrupt.during(Phase::Watched, || threads::with(self.arguments.map.threads, work));
         let stages = watch.finish();
-        let result = result.map_err(|error| {
-            Failure::new(Exit::Computation, format!("{threads} threads could not be started"))
-                .cause(&error)
-                .help("ask for fewer with --threads")
-        })?;
+        let result = result?;
         if io.interrupt.is_requested() {
             return Err(Failure::interrupted());
         }
@@ -213,12 +208,12 @@ impl Job<'_> {
         let valid = is_valid(&result.distortion);
         let report = UnwrapReport {
             head: Head::new("unwrap"),
-            input: self.input_report(),
+            input: InputReport::of(&self.mesh, &self.input),
             output: self.target.to_string(),
             uv_lines,
             valid,
             distortion: &result.distortion,
-            options: options_json(&self.options, arguments.boundary_uv.as_deref()),
+            options: options_json(&self.options, arguments.map.boundary_uv.as_deref()),
             record: &result.record,
             timings_seconds: timings,
             peak_memory_bytes: peak_memory_bytes(),
@@ -229,7 +224,7 @@ impl Job<'_> {
             io.report(aside, &json_text(&report))?;
         } else if !arguments.quiet {
             let color = if aside { io.stderr_color } else { io.stdout_color };
-            let text = unwrap_text(&report, &method_line(arguments), color);
+            let text = unwrap_text(&report, &method_line(&arguments.map, Some(arguments.q)), color);
             io.report(aside, &format!("{text}UVs written to {}\n", report.output))?;
         }
         if valid {
@@ -243,45 +238,29 @@ impl Job<'_> {
         }
         Ok(Exit::Invalid)
     }
-
-    fn input_report(&self) -> InputReport {
-        let mesh = &self.mesh;
-        let counts = mesh.face_counts();
-        InputReport {
-            file: self.input.name.clone(),
-            vertices: mesh.source_vertex_count(),
-            unused_vertices: mesh.source_vertex_count() - mesh.vertex_count(),
-            edges: mesh.edge_count(),
-            boundary_edges: mesh.halfedge_count() - mesh.corner_count(),
-            faces: mesh.face_count(),
-            triangles: counts.triangles,
-            quads: counts.quads,
-            polygons: counts.polygons,
-        }
-    }
 }
 
 /// What was asked for, in one line.
-fn method_line(arguments: &UnwrapArgs) -> String {
+pub(crate) fn method_line(map: &MapArgs, q: Option<f64>) -> String {
     fn name(choice: &impl ValueEnum) -> String {
         choice.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
     }
-    let method = name(&arguments.method);
-    match arguments.method {
+    let method = name(&map.method);
+    match map.method {
         MethodChoice::Lscm => format!("method {method}, free boundary"),
         MethodChoice::Paper => format!(
-            "method {method}, q {}, rule {}, weights {}, boundary {}",
-            arguments.q,
-            name(&arguments.rule),
-            name(&arguments.weights),
-            name(&arguments.boundary)
+            "method {method}{}, rule {}, weights {}, boundary {}",
+            q.map_or_else(String::new, |q| format!(", q {q}")),
+            name(&map.rule),
+            name(&map.weights),
+            name(&map.boundary)
         ),
-        _ => format!("method {method}, boundary {}", name(&arguments.boundary)),
+        _ => format!("method {method}, boundary {}", name(&map.boundary)),
     }
 }
 
 /// The options as the library takes them; of a fixed boundary only where it came from and its size.
-fn options_json(options: &Options, boundary_file: Option<&Path>) -> serde_json::Value {
+pub(crate) fn options_json(options: &Options, boundary_file: Option<&Path>) -> serde_json::Value {
     let mut value = serde_json::to_value(options).unwrap_or_default();
     if let (BoundaryShape::Fixed(positions), Some(file)) = (&options.boundary, boundary_file) {
         value["boundary"] = serde_json::json!({ "fixed": { "file": file.display().to_string(), "vertices": positions.len() } });

@@ -31,6 +31,25 @@ pub(crate) struct UnwrapArgs {
     /// Also write the simplified polygon mesh of section 2.1, for looking at it
     #[arg(long, value_name = "FILE.obj", help_heading = "Files")]
     pub(crate) simplified: Option<PathBuf>,
+
+    /// 1 is angle-true (conformal), 0 is area-true (authalic) (Eq. 10)
+    #[arg(long, value_name = "0..1", default_value = "0.5", value_parser = unit, help_heading = "Method")]
+    pub(crate) q: f64,
+    #[command(flatten)]
+    pub(crate) map: MapArgs,
+
+    /// Print the report as JSON
+    #[arg(long, action = ArgAction::SetTrue, help_heading = "Report")]
+    pub(crate) json: bool,
+    /// Print nothing but errors
+    #[arg(long, action = ArgAction::SetTrue, conflicts_with = "json", help_heading = "Report")]
+    pub(crate) quiet: bool,
+}
+
+// No doc comment: clap would make it the description of the commands. The options that `unwrap` and `sweep` share;
+// `q` is not among them, since one has one value and the other several.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct MapArgs {
     /// Defaults for these options (else qparam.toml here, else qparam/config.toml among the user's settings)
     #[arg(long, value_name = "FILE.toml", help_heading = "Files", conflicts_with = "no_config")]
     pub(crate) config: Option<PathBuf>,
@@ -41,9 +60,6 @@ pub(crate) struct UnwrapArgs {
     /// Which way to a map
     #[arg(long, value_enum, default_value = "paper", help_heading = "Method")]
     pub(crate) method: MethodChoice,
-    /// 1 is angle-true (conformal), 0 is area-true (authalic) (Eq. 10)
-    #[arg(long, value_name = "0..1", default_value = "0.5", value_parser = unit, help_heading = "Method")]
-    pub(crate) q: f64,
     /// Where the boundary goes (not for lscm, whose boundary is free)
     #[arg(long, value_enum, default_value = "circle", help_heading = "Method")]
     pub(crate) boundary: BoundaryChoice,
@@ -124,13 +140,6 @@ pub(crate) struct UnwrapArgs {
     #[arg(long, value_name = "N", default_value = "0", value_parser = thread_count,
         help_heading = "Linear systems")]
     pub(crate) threads: usize,
-
-    /// Print the report as JSON
-    #[arg(long, action = ArgAction::SetTrue, help_heading = "Report")]
-    pub(crate) json: bool,
-    /// Print nothing but errors
-    #[arg(long, action = ArgAction::SetTrue, conflicts_with = "json", help_heading = "Report")]
-    pub(crate) quiet: bool,
 }
 
 const AFTER_LONG_HELP: &str = "\
@@ -155,6 +164,18 @@ Exit codes:
 impl UnwrapArgs {
     /// The library's options. A fixed boundary is still empty: its file has not been read.
     pub(crate) fn options(&self) -> Result<Options, Failure> {
+        let options = self.map.options(self.q)?;
+        if self.map.method != MethodChoice::Paper && self.simplified.is_some() {
+            return Err(Failure::new(Exit::Usage, "--simplified: only the method `paper` simplifies")
+                .help("leave --simplified out, or use --method paper"));
+        }
+        Ok(options)
+    }
+}
+
+impl MapArgs {
+    /// The library's options with this `q`. A fixed boundary is still empty: its file has not been read.
+    pub(crate) fn options(&self, q: f64) -> Result<Options, Failure> {
         self.check()?;
         let threshold = match self.remove_below {
             Some(value) => Threshold::Value(value),
@@ -168,7 +189,7 @@ impl UnwrapArgs {
         };
         Ok(Options {
             method: self.method.into(),
-            q: self.q,
+            q,
             boundary: match self.boundary {
                 BoundaryChoice::Circle => BoundaryShape::Circle,
                 BoundaryChoice::Square => BoundaryShape::Square,
@@ -216,10 +237,6 @@ impl UnwrapArgs {
                 "--boundary-uv has no effect without --boundary fixed".into(),
                 "add --boundary fixed, or leave --boundary-uv out",
             ),
-            _ if self.method != MethodChoice::Paper && self.simplified.is_some() => refuse(
-                "--simplified: only the method `paper` simplifies".into(),
-                "leave --simplified out, or use --method paper",
-            ),
             _ => Ok(()),
         }
     }
@@ -232,7 +249,7 @@ fn number(text: &str, accept: impl Fn(f64) -> bool, expected: &str) -> Result<f6
     }
 }
 
-fn unit(text: &str) -> Result<f64, String> {
+pub(crate) fn unit(text: &str) -> Result<f64, String> {
     number(text, |x| (0.0..=1.0).contains(&x), "a number between 0 and 1")
 }
 

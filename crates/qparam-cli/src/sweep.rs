@@ -1,0 +1,135 @@
+//! One mesh, several `q`: the trade-off between angles and areas, in the form of the paper's Table 1.
+//!
+//! ```
+//! use qparam_cli::qmesh::shapes;
+//! use qparam_cli::qoptimize::Options;
+//! use qparam_cli::qsimplify::{RemovalRule, SimplifyOptions};
+//! use qparam_cli::sweep::{Trend, sweep};
+//!
+//! let simplify = SimplifyOptions { rule: RemovalRule::All, ..SimplifyOptions::default() };
+//! let options = Options { simplify, ..Options::default() };
+//! let result = sweep(&shapes::bump(8, 0.5), &options, &[1.0, 0.5, 0.0], &())?;
+//! assert_eq!(result.columns.len(), 3);
+//! assert_eq!(result.features.angle.trend, Trend::Falls);
+//! # Ok::<(), qparam_cli::qoptimize::ParameterizeError>(())
+//! ```
+
+mod features;
+mod knee;
+
+pub use features::{Change, Features, Smallest, Trend};
+pub use knee::{Knee, NoKnee, knee};
+
+use qoptimize::qmesh::{Observer, QuadMesh};
+use qoptimize::{Distortion, Options, Parameterization, ParameterizeError, parameterize};
+use serde::Serialize;
+
+use crate::report::is_valid;
+
+/// The `q` of the paper's Table 1.
+pub const TABLE_1_Q: [f64; 5] = [1.0, 0.8, 0.5, 0.2, 0.0];
+
+/// What Table 1 shows of a map, at one `q`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Errors {
+    /// 1 angle-true, 0 area-true.
+    pub q: f64,
+    /// Eq. 13.
+    pub angle: f64,
+    /// Eq. 14.
+    pub area: f64,
+}
+
+impl Errors {
+    /// Of both errors.
+    #[must_use]
+    pub fn sum(&self) -> f64 {
+        self.angle + self.area
+    }
+}
+
+/// The map at one `q`, or why there is none.
+#[derive(Clone, Debug)]
+pub struct Column {
+    /// 1 angle-true, 0 area-true.
+    pub q: f64,
+    /// Its measures.
+    pub outcome: Result<Distortion, ParameterizeError>,
+}
+
+impl Column {
+    /// The errors of the map, if there is one.
+    #[must_use]
+    pub fn errors(&self) -> Option<Errors> {
+        let distortion = self.outcome.as_ref().ok()?;
+        Some(Errors { q: self.q, angle: distortion.angle_error, area: distortion.area_error })
+    }
+
+    /// Whether there is a map without flips and overlaps.
+    #[must_use]
+    pub fn is_valid(&self) -> bool {
+        self.outcome.as_ref().is_ok_and(is_valid)
+    }
+}
+
+/// A whole sweep.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    /// One a `q`, in the order asked for.
+    pub columns: Vec<Column>,
+    /// Whether the three features of Table 1 hold, over all maps there are.
+    pub features: Features,
+    /// Where the trade-off bends, over the valid maps.
+    pub knee: Result<Knee, NoKnee>,
+}
+
+/// Maps `mesh` once for each `q`; the `q` of `options` is not read.
+///
+/// A `q` without a map leaves a gap: its column says why. The observer hears of the maps one after the other.
+///
+/// # Errors
+/// [`ParameterizeError::Cancelled`] when the observer stops; the first error when no `q` has a map.
+pub fn sweep(
+    mesh: &QuadMesh,
+    options: &Options,
+    q: &[f64],
+    observer: &dyn Observer,
+) -> Result<Sweep, ParameterizeError> {
+    let mut columns = Vec::with_capacity(q.len());
+    for &q in q {
+        let outcome = parameterize(mesh, &Options { q, ..options.clone() }, observer)
+            .map(|Parameterization { distortion, .. }| distortion);
+        if outcome == Err(ParameterizeError::Cancelled) {
+            return Err(ParameterizeError::Cancelled);
+        }
+        columns.push(Column { q, outcome });
+    }
+    if columns.iter().all(|column| column.outcome.is_err())
+        && let Some(Column { outcome: Err(error), .. }) = columns.first()
+    {
+        return Err(error.clone());
+    }
+    Ok(Sweep::of(columns))
+}
+
+impl Sweep {
+    /// Reads features and knee off columns.
+    #[must_use]
+    pub fn of(columns: Vec<Column>) -> Self {
+        let errors: Vec<Errors> = columns.iter().filter_map(Column::errors).collect();
+        let valid: Vec<Errors> =
+            columns.iter().filter(|column| column.is_valid()).filter_map(Column::errors).collect();
+        Self { features: Features::of(&errors), knee: knee(&valid), columns }
+    }
+
+    /// The three features of Table 1 and the knee, a sentence each.
+    #[must_use]
+    pub fn sentences(&self) -> Vec<String> {
+        let mut sentences = self.features.sentences().to_vec();
+        sentences.push(match &self.knee {
+            Ok(knee) => format!("knee of the trade-off: q = {}", knee.q),
+            Err(reason) => format!("knee of the trade-off: none, {reason}"),
+        });
+        sentences
+    }
+}

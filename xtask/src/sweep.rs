@@ -1,0 +1,124 @@
+//! `cargo xtask sweep [MESHES…]`: distortion against q, in the form of the paper's Table 1.
+//!
+//! Without meshes, every fixture that is a disk is swept; the tables go to `fixtures/tables/`, their short form to
+//! `README.md`, and `--check` compares both with what is there. Figures have four digits, so that machines that round
+//! sums differently write the same tables.
+
+mod files;
+mod mesh_report;
+mod printed;
+mod reading;
+mod search;
+mod short;
+
+use std::path::{Path, PathBuf};
+
+use clap::Parser;
+use qparam_cli::qmesh::QuadMesh;
+use qparam_cli::qmesh::obj::ObjDocument;
+use qparam_cli::sweep::TABLE_1_Q;
+
+use mesh_report::MeshReport;
+
+/// Distortion against q for every method, in the form of the paper's Table 1.
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask sweep")]
+struct Arguments {
+    /// Quad meshes (OBJ) that are disks; default: the disks of fixtures/
+    meshes: Vec<PathBuf>,
+    /// The values of q, in the order of the columns
+    #[arg(long, value_delimiter = ',', default_values_t = TABLE_1_Q)]
+    q: Vec<f64>,
+    /// Compare with the committed tables instead of writing them
+    #[arg(long, conflicts_with_all = ["meshes", "q", "output", "search"])]
+    check: bool,
+    /// Instead: try every reading of the paper's method on the face and the head, and rank them
+    #[arg(long, conflicts_with_all = ["meshes", "q", "output"])]
+    search: bool,
+    /// Where the tables go [default: fixtures/tables; with meshes or --q: target/sweep]
+    #[arg(long, value_name = "FOLDER")]
+    output: Option<PathBuf>,
+}
+
+/// Runs the task.
+pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
+    let name = ["cargo xtask sweep".to_owned()];
+    match Arguments::try_parse_from(name.iter().chain(arguments)) {
+        Ok(arguments) => sweep(&arguments),
+        Err(error) if error.use_stderr() => Err(error.to_string()),
+        Err(help) => {
+            print!("{help}");
+            Ok(())
+        }
+    }
+}
+
+fn sweep(arguments: &Arguments) -> Result<(), String> {
+    if let Some(q) = arguments.q.iter().find(|q| !(0.0..=1.0).contains(*q)) {
+        return Err(format!("--q: {q} is not between 0 and 1"));
+    }
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the workspace has no folder")?;
+    let fixtures = disks(&root.join("fixtures"))?;
+    if arguments.search {
+        let models = fixtures.into_iter().filter(|mesh| ["face", "head"].contains(&mesh.name.as_str()));
+        let text = search::table(&models.collect::<Vec<_>>())?;
+        return files::write(&root.join("fixtures/tables"), &[("search.md".to_owned(), text)]);
+    }
+    let chosen = !arguments.meshes.is_empty();
+    let meshes = if chosen {
+        arguments.meshes.iter().map(|path| load(path)).collect::<Result<Vec<_>, _>>()?
+    } else {
+        fixtures
+    };
+    let reports =
+        meshes.iter().map(|mesh| MeshReport::new(mesh, &arguments.q)).collect::<Result<Vec<_>, _>>()?;
+    let mut tables = Vec::new();
+    for report in &reports {
+        tables.push((format!("{}.md", report.name), report.markdown()));
+        tables.push((format!("{}.csv", report.name), report.csv()));
+    }
+    let standard = !chosen && arguments.q == TABLE_1_Q && arguments.output.is_none();
+    if standard {
+        tables.push(("README.md".to_owned(), short::overview(&reports)));
+    }
+    let folder = match &arguments.output {
+        Some(folder) => folder.clone(),
+        None if standard => root.join("fixtures/tables"),
+        None => root.join("target/sweep"),
+    };
+    let readme = root.join("README.md");
+    let short = short::table(&reports);
+    if arguments.check {
+        files::compare(&folder, &tables, &["search.md"])?;
+        return files::compare_section(&readme, &short);
+    }
+    files::write(&folder, &tables)?;
+    if standard { files::write_section(&readme, &short) } else { Ok(()) }
+}
+
+/// A mesh and its file name without folder and ending.
+struct Mesh {
+    name: String,
+    mesh: QuadMesh,
+}
+
+fn load(path: &Path) -> Result<Mesh, String> {
+    let wrong = |what: String| format!("{}: {what}", path.display());
+    let bytes = std::fs::read(path).map_err(|error| wrong(error.to_string()))?;
+    let document = ObjDocument::parse(bytes).map_err(|error| wrong(error.to_string()))?;
+    let mesh = QuadMesh::build(document.polygons()).map_err(|error| wrong(error.to_string()))?;
+    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    Ok(Mesh { name, mesh })
+}
+
+/// Every disk in a folder; the face and the head first, as in Table 1, then by name.
+fn disks(folder: &Path) -> Result<Vec<Mesh>, String> {
+    let entries = std::fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "obj"));
+    let mut meshes = paths.iter().map(|path| load(path)).collect::<Result<Vec<_>, _>>()?;
+    meshes.retain(|mesh| mesh.mesh.topology().is_disk());
+    let rank = |name: &str| ["face", "head"].iter().position(|model| *model == name).unwrap_or(2);
+    meshes.sort_by(|a, b| (rank(&a.name), &a.name).cmp(&(rank(&b.name), &b.name)));
+    Ok(meshes)
+}

@@ -1,0 +1,125 @@
+//! Which methods are swept, and with which readings of the paper.
+
+use qparam_cli::qembed::{BoundaryShape, Mixing, Weights};
+use qparam_cli::qmesh::QuadMesh;
+use qparam_cli::qoptimize::{Method, Options, parameterize};
+use qparam_cli::qsimplify::{RemovalRule, SimplifyOptions};
+
+/// A method that q moves.
+#[derive(Clone, Debug)]
+pub(super) struct Contender {
+    pub(super) name: &'static str,
+    pub(super) what: String,
+    pub(super) method: Method,
+    pub(super) reading: Reading,
+}
+
+/// What the paper leaves open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Reading {
+    pub(super) rule: RemovalRule,
+    pub(super) weights: Weights,
+    pub(super) mixing: Mixing,
+    pub(super) boundary: Boundary,
+    pub(super) exponent: f64,
+}
+
+/// Where the boundary lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Boundary {
+    Circle,
+    Square,
+    Projection,
+    /// Where the least squares conformal map puts it.
+    Lscm,
+}
+
+pub(super) const DEFAULT: Reading = Reading {
+    rule: RemovalRule::Guarded,
+    weights: Weights::Star4,
+    mixing: Mixing::RowNormalized,
+    boundary: Boundary::Circle,
+    exponent: 1.0,
+};
+
+/// The reading under which most of Table 1 shows on the face and the head; found by `cargo xtask sweep --search`.
+pub(super) const BEST: Reading =
+    Reading { rule: RemovalRule::All, weights: Weights::Star1, boundary: Boundary::Projection, ..DEFAULT };
+
+/// The methods that q moves, the default first.
+pub(super) fn contenders() -> Vec<Contender> {
+    let paper = |name, what: &str, reading: Reading| Contender {
+        name,
+        what: format!("{what}: {}", reading.words()),
+        method: Method::Paper,
+        reading,
+    };
+    vec![
+        paper("paper", "the default reading", DEFAULT),
+        paper(
+            "paper, all",
+            "the default reading, but all interior vertices removed, so that q acts on each",
+            Reading { rule: RemovalRule::All, ..DEFAULT },
+        ),
+        paper("paper, best", "the reading that shows most of Table 1", BEST),
+    ]
+}
+
+/// The methods that q does not move.
+pub(super) const BASELINES: &[(Method, &str, &str)] = &[
+    (Method::Uniform, "uniform", "Tutte 1963, circle"),
+    (Method::MeanValue, "mean-value", "Floater 2003, circle"),
+    (Method::Harmonic, "harmonic", "Eck et al. 1995, circle"),
+    (Method::Lscm, "lscm", "Lévy et al. 2002, free boundary"),
+];
+
+impl Reading {
+    /// In the words of the command line.
+    pub(super) fn words(&self) -> String {
+        let Self { rule, weights, mixing, boundary, exponent } = self;
+        let rule = format!("{rule:?}").to_lowercase();
+        let weights = format!("{weights:?}").to_lowercase();
+        let boundary = match boundary {
+            Boundary::Circle => "circle",
+            Boundary::Square => "square",
+            Boundary::Projection => "projection",
+            Boundary::Lscm => "as in lscm",
+        };
+        let mixing = if *mixing == Mixing::Raw { ", mixing raw" } else { "" };
+        // Nothing is left for Eq. 5 when all interior vertices go.
+        let exponent = if rule == "all" { String::new() } else { format!(", r {exponent}") };
+        format!("rule {rule}, weights {weights}, boundary {boundary}{exponent}{mixing}")
+    }
+
+    /// The options for one mesh.
+    pub(super) fn options(&self, method: Method, mesh: &QuadMesh) -> Result<Options, String> {
+        let boundary = match self.boundary {
+            Boundary::Circle => BoundaryShape::Circle,
+            Boundary::Square => BoundaryShape::Square,
+            Boundary::Projection => BoundaryShape::Projection,
+            Boundary::Lscm => lscm_boundary(mesh)?,
+        };
+        Ok(Options {
+            method,
+            boundary,
+            weights: self.weights,
+            mixing: self.mixing,
+            exponent: self.exponent,
+            simplify: SimplifyOptions { rule: self.rule, ..SimplifyOptions::default() },
+            ..Options::default()
+        })
+    }
+}
+
+fn lscm_boundary(mesh: &QuadMesh) -> Result<BoundaryShape, String> {
+    let options = Options { method: Method::Lscm, ..Options::default() };
+    let map = parameterize(mesh, &options, &()).map_err(|error| error.to_string())?;
+    let mut positions: Vec<_> = mesh
+        .corners()
+        .map(|corner| (mesh.vertex(corner), map.uv[corner]))
+        .filter(|(vertex, _)| mesh.is_boundary(*vertex))
+        .collect();
+    positions.sort_by_key(|(vertex, _)| *vertex);
+    positions.dedup_by_key(|(vertex, _)| *vertex);
+    Ok(BoundaryShape::Fixed(positions))
+}

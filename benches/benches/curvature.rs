@@ -2,11 +2,11 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use qoptimize::qcurv::{VertexArea, gaussian_curvature};
-use qparam_benches::{SIZES, face_like};
+use qparam_benches::{face_like, sides};
 
 fn curvature(c: &mut Criterion) {
     let mut group = c.benchmark_group("curvature");
-    for side in SIZES {
+    for side in sides() {
         let mesh = face_like(side);
         group.throughput(Throughput::Elements((side * side) as u64));
         for area in [VertexArea::Voronoi, VertexArea::FaceSum] {

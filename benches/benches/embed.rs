@@ -4,12 +4,12 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use qoptimize::qembed::{BoundaryShape, Classic, EmbedOptions, embed, embed_classic};
 use qoptimize::qsimplify::{RemovalRule, SimplifyOptions, simplify};
 use qoptimize::qsolve::SolveOptions;
-use qparam_benches::{SIZES, face_like};
+use qparam_benches::{face_like, sides};
 
 fn paper(c: &mut Criterion) {
     let mut group = c.benchmark_group("embed/paper");
     group.sample_size(10);
-    for side in SIZES {
+    for side in sides() {
         let mesh = face_like(side);
         group.throughput(Throughput::Elements((side * side) as u64));
         for rule in [RemovalRule::Guarded, RemovalRule::All] {
@@ -26,7 +26,7 @@ fn paper(c: &mut Criterion) {
 fn classic(c: &mut Criterion) {
     let mut group = c.benchmark_group("embed/classic");
     group.sample_size(10);
-    for side in SIZES {
+    for side in sides() {
         let mesh = face_like(side);
         group.throughput(Throughput::Elements((side * side) as u64));
         for method in [Classic::Uniform, Classic::MeanValue, Classic::Harmonic, Classic::Lscm] {

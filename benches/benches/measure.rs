@@ -3,11 +3,11 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use qoptimize::measure;
 use qoptimize::qmesh::Vec2;
-use qparam_benches::{SIZES, face_like};
+use qparam_benches::{face_like, sides};
 
 fn distortion(c: &mut Criterion) {
     let mut group = c.benchmark_group("measure");
-    for side in SIZES {
+    for side in sides() {
         let mesh = face_like(side);
         let uv: Vec<Vec2> = mesh.corners().map(|corner| mesh.position(mesh.vertex(corner)).xy()).collect();
         group.throughput(Throughput::Elements((side * side) as u64));

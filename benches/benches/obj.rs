@@ -1,12 +1,12 @@
-//! Reading and writing OBJ text, up to a million quads.
+//! Reading and writing OBJ text.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use qoptimize::qmesh::Vec2;
 use qoptimize::qmesh::obj::{ObjDocument, write_obj};
-use qparam_benches::face_like;
+use qparam_benches::{face_like, sides};
 
 fn obj(c: &mut Criterion) {
-    for side in [100, 1000] {
+    for side in sides() {
         let mesh = face_like(side);
         let mut text = Vec::new();
         write_obj(&mut text, mesh.view(), None).expect("memory takes every byte");

@@ -3,7 +3,7 @@
 use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use qoptimize::qmesh::{QuadMesh, Vec2, VertexData};
 use qoptimize::{MoveOrder, OverlapOptions, remove_overlaps};
-use qparam_benches::{SIZES, face_like};
+use qparam_benches::{face_like, sides};
 
 /// The mesh seen from above, with every 97th interior vertex moved four columns to the right.
 fn spiked(mesh: &QuadMesh, side: usize) -> VertexData<Vec2> {
@@ -18,7 +18,7 @@ fn spiked(mesh: &QuadMesh, side: usize) -> VertexData<Vec2> {
 fn overlaps(c: &mut Criterion) {
     let mut group = c.benchmark_group("overlap");
     group.sample_size(10);
-    for side in SIZES {
+    for side in sides() {
         let mesh = face_like(side);
         let uv = spiked(&mesh, side);
         group.throughput(Throughput::Elements((side * side) as u64));

@@ -2,12 +2,12 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use qoptimize::qsimplify::{RemovalRule, SimplifyOptions, simplify};
-use qparam_benches::{SIZES, face_like};
+use qparam_benches::{face_like, sides};
 
 fn rules(c: &mut Criterion) {
     let mut group = c.benchmark_group("simplify");
     group.sample_size(10);
-    for side in SIZES {
+    for side in sides() {
         let mesh = face_like(side);
         group.throughput(Throughput::Elements((side * side) as u64));
         for rule in [RemovalRule::Guarded, RemovalRule::Ring, RemovalRule::All] {

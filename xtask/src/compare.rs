@@ -8,7 +8,7 @@ mod agreement;
 mod cgal;
 mod contestant;
 mod league;
-mod machine;
+pub(crate) mod machine;
 mod markdown;
 mod numbers;
 mod ours;

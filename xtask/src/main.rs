@@ -10,6 +10,7 @@ use std::process::ExitCode;
 type Task = fn(&[String]) -> Result<(), String>;
 
 const TASKS: &[(&str, &str, Task)] = &[
+    ("bench", "time a quad and growth of each stage, into benches/RESULTS.md", bench::run),
     (
         "compare",
         "league table of qparam and its rivals on the same meshes (fetches the rivals)",
@@ -34,6 +35,7 @@ const TASKS: &[(&str, &str, Task)] = &[
     ("tidy", "house rules: the chain of crates, module headers, every equation cited, links", tidy::run),
 ];
 
+mod bench;
 mod compare;
 mod figure;
 mod fixtures;

@@ -24,6 +24,10 @@ pub(crate) enum Command {
     /// Compute UVs and write them into a copy of the file
     Unwrap(UnwrapArgs),
     /// Map one mesh with several q: the trade-off between angles and areas, and its knee
+    ///
+    /// The table has the form of the paper's Table 1, with the sum of both errors, flips and symmetric Dirichlet. No UVs
+    /// are written. q moves the methods that mix angle-true and area-true weights; for the others all columns are alike.
+    /// The knee is the map that lies farthest below the chord of the trade-off, on logarithmic scales from end to end.
     Sweep(SweepArgs),
     /// Measure the UVs that files already have, side by side
     Measure(MeasureArgs),
@@ -41,10 +45,7 @@ pub(crate) enum Command {
     },
 }
 
-/// Map one mesh with several q, in the form of the paper's Table 1, and name the knee of the trade-off.
-///
-/// No UVs are written. q moves the methods that mix angle-true and area-true weights; for the others all columns
-/// are alike.
+/// Map one mesh with several q.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = exit::TABLE)]
 pub(crate) struct SweepArgs {

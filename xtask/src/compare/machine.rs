@@ -4,14 +4,14 @@ use serde::Serialize;
 
 /// Enough to judge times by; no date, no name, no path.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct Machine {
-    pub(super) processor: String,
-    pub(super) threads: usize,
-    pub(super) memory_gib: Option<u64>,
-    pub(super) system: String,
+pub(crate) struct Machine {
+    pub(crate) processor: String,
+    pub(crate) threads: usize,
+    pub(crate) memory_gib: Option<u64>,
+    pub(crate) system: String,
 }
 
-pub(super) fn describe() -> Machine {
+pub(crate) fn describe() -> Machine {
     let read = |path: &str| std::fs::read_to_string(path).unwrap_or_default();
     let processor =
         field(&read("/proc/cpuinfo"), "model name").unwrap_or_else(|| "unknown processor".to_owned());
@@ -26,7 +26,7 @@ pub(super) fn describe() -> Machine {
 }
 
 /// The value of the first `name : value` line.
-pub(super) fn field(text: &str, name: &str) -> Option<String> {
+pub(crate) fn field(text: &str, name: &str) -> Option<String> {
     text.lines().find_map(|line| {
         let (key, value) = line.split_once(':')?;
         (key.trim() == name).then(|| value.trim().to_owned())

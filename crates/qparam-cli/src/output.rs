@@ -42,10 +42,10 @@ impl Target {
         };
         match fs::metadata(path) {
             Ok(found) if found.is_dir() => {
-                return refuse("is a folder, not a file", "name a file in it with -o");
+                return refuse("is a folder, not a file", "name a file in it");
             }
             Ok(found) if found.is_file() && found.permissions().readonly() => {
-                return refuse("may not be written", "name another file with -o, or change its permissions");
+                return refuse("may not be written", "name another file, or change its permissions");
             }
             Ok(found) if !found.is_file() => return Ok(()),
             _ => {}
@@ -54,7 +54,7 @@ impl Target {
         // An unnamed file: nothing is left behind, whatever happens.
         tempfile::tempfile_in(&folder).map(drop).map_err(|error| {
             cannot(path, &error).help(format!(
-                "the folder {} must exist and be writable; name another place with -o",
+                "the folder {} must exist and be writable; or name another place",
                 folder.display()
             ))
         })

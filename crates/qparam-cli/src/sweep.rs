@@ -29,6 +29,9 @@ use crate::report::is_valid;
 /// The `q` of the paper's Table 1.
 pub const TABLE_1_Q: [f64; 5] = [1.0, 0.8, 0.5, 0.2, 0.0];
 
+/// Errors below this are none: what rounding, and the last step of an iteration, leave on a mesh that can be flattened.
+pub const VANISHING: f64 = 1e-9;
+
 /// What Table 1 shows of a map, at one `q`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Errors {

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use qparam_cli::qoptimize::{Distortion, Options, parameterize};
-use qparam_cli::sweep::{Errors, Sweep, sweep};
+use qparam_cli::sweep::{Errors, Sweep, VANISHING, sweep};
 use rayon::prelude::*;
 
 use super::Mesh;
@@ -27,8 +27,7 @@ pub(super) fn digits(value: f64) -> String {
     let scientific = format!("{value:.3e}");
     let exponent = scientific.split_once('e').and_then(|(_, digits)| digits.parse::<i32>().ok());
     match exponent {
-        // Without this, rounding noise on flat meshes would differ between machines.
-        _ if value.abs() < 1e-9 => "0".to_owned(),
+        _ if value.abs() < VANISHING => "0".to_owned(),
         Some(exponent @ -4..6) => format!("{value:.decimals$}", decimals = (3 - exponent).max(0) as usize),
         _ => scientific,
     }
@@ -45,7 +44,7 @@ const MORE_ROWS: &[(&str, fn(&Distortion) -> String)] = &[
 impl MeshReport {
     pub(super) fn new(mesh: &Mesh, q: &[f64]) -> Result<Self, String> {
         let run = |contender: &Contender| {
-            let options = contender.reading.options(contender.method, &mesh.mesh)?;
+            let options = contender.way.options(&mesh.mesh)?;
             sweep(&mesh.mesh, &options, q, &()).map_err(|error| error.to_string())
         };
         let swept =

@@ -10,8 +10,24 @@ use qparam_cli::qsimplify::{RemovalRule, SimplifyOptions};
 pub(super) struct Contender {
     pub(super) name: &'static str,
     pub(super) what: String,
-    pub(super) method: Method,
-    pub(super) reading: Reading,
+    pub(super) way: Way,
+}
+
+/// The paper's method with a reading, or another method with its options.
+#[derive(Clone, Debug)]
+pub(super) enum Way {
+    Paper(Reading),
+    Other(Box<Options>),
+}
+
+impl Way {
+    /// The options for one mesh.
+    pub(super) fn options(&self, mesh: &QuadMesh) -> Result<Options, String> {
+        match self {
+            Self::Paper(reading) => reading.options(mesh),
+            Self::Other(options) => Ok((**options).clone()),
+        }
+    }
 }
 
 /// What the paper leaves open.
@@ -51,9 +67,16 @@ pub(super) fn contenders() -> Vec<Contender> {
     let paper = |name, what: &str, reading: Reading| Contender {
         name,
         what: format!("{what}: {}", reading.words()),
-        method: Method::Paper,
-        reading,
+        way: Way::Paper(reading),
     };
+    let other = |name, what: &str, options| Contender {
+        name,
+        what: what.to_owned(),
+        way: Way::Other(Box::new(options)),
+    };
+    let direct = Options { method: Method::Direct, ..Options::default() };
+    let mut less_shape = direct.clone();
+    less_shape.direct.shape = 0.1;
     vec![
         paper("paper", "the default reading", DEFAULT),
         paper(
@@ -61,7 +84,18 @@ pub(super) fn contenders() -> Vec<Contender> {
             "the default reading with rule `all`, so that q acts on every interior vertex",
             Reading { rule: RemovalRule::All, ..DEFAULT },
         ),
-        paper("paper, best", "the reading that shows most of Table 1 (search.md)", BEST),
+        paper("paper, best", "the reading that shows most of Table 1", BEST),
+        other(
+            "direct",
+            "minimisation of the errors themselves, with a free boundary and the default shape term",
+            direct,
+        ),
+        other("direct, shape 0.1", "the same, nearer to the errors of Eqs. 13 and 14 alone", less_shape),
+        other(
+            "conformal",
+            "the classical family q · MIPS + (1 − q) · (det + 1/det)/2, with a free boundary",
+            Options { method: Method::Conformal, ..Options::default() },
+        ),
     ]
 }
 
@@ -92,7 +126,7 @@ impl Reading {
     }
 
     /// The options for one mesh.
-    pub(super) fn options(&self, method: Method, mesh: &QuadMesh) -> Result<Options, String> {
+    pub(super) fn options(&self, mesh: &QuadMesh) -> Result<Options, String> {
         let boundary = match self.boundary {
             Boundary::Circle => BoundaryShape::Circle,
             Boundary::Square => BoundaryShape::Square,
@@ -100,7 +134,7 @@ impl Reading {
             Boundary::Lscm => lscm_boundary(mesh)?,
         };
         Ok(Options {
-            method,
+            method: Method::Paper,
             boundary,
             weights: self.weights,
             mixing: self.mixing,

@@ -26,7 +26,7 @@ pub(super) fn table(reports: &[MeshReport]) -> String {
                     "- **{}** ({}): {} of 3. Angle error falls as q → 1: {}. Area error falls as q → 0: {}. Smallest sum \
                      inside: {}, at {smallest}.",
                     contender.name,
-                    contender.reading.words(),
+                    contender.what,
                     features.held(),
                     features.angle.words(),
                     features.area.words(),

@@ -4,11 +4,14 @@
 
 use serde::Serialize;
 
-use super::Errors;
+use super::{Errors, VANISHING};
 use crate::table::short;
 
 /// Relative changes below this count as none: what is left of rounding, and of overlap removal, is smaller.
 const LEVEL: f64 = 1e-4;
+
+/// Sums this near to the smallest are as small.
+const TIE: f64 = 1e-6;
 
 /// How an error changes towards the end of q at which it should be smallest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -65,7 +68,9 @@ impl Features {
     /// Of maps in any order.
     #[must_use]
     pub fn of(errors: &[Errors]) -> Self {
-        let mut sorted = errors.to_vec();
+        let clean = |error: f64| if error < VANISHING { 0.0 } else { error };
+        let cleaned = errors.iter().map(|e| Errors { q: e.q, angle: clean(e.angle), area: clean(e.area) });
+        let mut sorted: Vec<Errors> = cleaned.collect();
         sorted.sort_by(|a, b| a.q.total_cmp(&b.q));
         let angle: Vec<_> = sorted.iter().map(|e| (e.q, e.angle)).collect();
         let area: Vec<_> = sorted.iter().rev().map(|e| (e.q, e.area)).collect();
@@ -128,7 +133,7 @@ fn change(values: &[(f64, f64)]) -> Change {
         [(_, first), .., (_, last)] => (*first, *last),
         _ => return Change { trend: Trend::Unknown, first: 0.0, last: 0.0, against: None },
     };
-    let rises = |a: f64, b: f64| b > a * (1.0 + LEVEL) && b > f64::EPSILON;
+    let rises = |a: f64, b: f64| b > a * (1.0 + LEVEL);
     let against =
         values.windows(2).find(|pair| rises(pair[0].1, pair[1].1)).map(|pair| [pair[0].0, pair[1].0]);
     let down = values.windows(2).any(|pair| rises(pair[1].1, pair[0].1));
@@ -144,7 +149,9 @@ fn change(values: &[(f64, f64)]) -> Change {
 }
 
 fn smallest(sorted: &[Errors]) -> Option<Smallest> {
-    let best = sorted.iter().min_by(|a, b| a.sum().total_cmp(&b.sum()))?;
+    let least = sorted.iter().map(Errors::sum).min_by(f64::total_cmp)?;
+    // Of equal sums the one of the smallest q: rounding shall not choose.
+    let best = sorted.iter().find(|errors| errors.sum() <= least * (1.0 + TIE))?;
     let ends = [sorted.first()?.sum(), sorted.last()?.sum()];
     let inside = ends.iter().all(|end| *end > best.sum() * (1.0 + LEVEL));
     Some(Smallest { q: best.q, sum: best.sum(), inside })
@@ -194,7 +201,7 @@ mod tests {
     /// A flat mesh is mapped without error: rounding is no trend.
     #[test]
     fn rounding_is_no_trend() {
-        let found = Features::of(&errors([1e-30, 3e-30, 2e-30, 0.0, 1e-29], [0.0; 5]));
+        let found = Features::of(&errors([1e-13, 3e-12, 2e-30, 0.0, 1e-29], [0.0; 5]));
         assert_eq!((found.angle.trend, found.area.trend), (Trend::Level, Trend::Level));
     }
 }

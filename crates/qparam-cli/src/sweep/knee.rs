@@ -11,7 +11,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::Errors;
+use super::{Errors, VANISHING};
 
 /// A front that spans less than this factor in one of the errors has no knee worth a name.
 const LEAST_FACTOR: f64 = 1.01;
@@ -57,8 +57,7 @@ impl fmt::Display for NoKnee {
 /// # Errors
 /// [`NoKnee`] when the front is degenerate.
 pub fn knee(errors: &[Errors]) -> Result<Knee, NoKnee> {
-    // Errors this small are rounding: 1e-12 for a thousand corners.
-    if errors.iter().any(|e| e.angle.min(e.area) < 1e-15) {
+    if errors.iter().any(|e| e.angle.min(e.area) < VANISHING) {
         return Err(NoKnee::NoError);
     }
     let front = front(errors);
@@ -105,7 +104,7 @@ mod tests {
     /// An L in log-log has its knee in the corner, whatever the units of the errors.
     #[test]
     fn a_corner_is_the_knee_in_any_unit() {
-        for unit in [1e-6, 1.0, 1e9] {
+        for unit in [1e-8, 1.0, 1e9] {
             let knee = knee(&errors(&[(unit, 1e4), (2.0 * unit, 2.0), (100.0 * unit, 1.0)])).unwrap();
             assert_eq!(knee.q, 0.5);
             assert!(knee.distance > 0.5 && knee.distance < std::f64::consts::FRAC_1_SQRT_2);

@@ -25,12 +25,24 @@ use qoptimize::{Distortion, Options, Parameterization, ParameterizeError, parame
 use serde::Serialize;
 
 use crate::report::is_valid;
+use crate::table::short;
 
 /// The `q` of the paper's Table 1.
 pub const TABLE_1_Q: [f64; 5] = [1.0, 0.8, 0.5, 0.2, 0.0];
 
 /// Errors below this are none: what rounding, and the last step of an iteration, leave on a mesh that can be flattened.
 pub const VANISHING: f64 = 1e-9;
+
+/// An error as tables show it: four significant digits, so that every machine shows the same; two from 1e10 on, where
+/// some corner has all but vanished and its size is rounding.
+#[must_use]
+pub fn digits(error: f64) -> String {
+    match error.abs() {
+        size if size < VANISHING => "0".to_owned(),
+        size if size >= 1e10 => format!("{error:.1e}"),
+        _ => short(error),
+    }
+}
 
 /// What Table 1 shows of a map, at one `q`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use qparam_cli::qoptimize::{Distortion, Options, parameterize};
-use qparam_cli::sweep::{Errors, Sweep, VANISHING, sweep};
+use qparam_cli::sweep::{Errors, Sweep, digits, sweep};
 use rayon::prelude::*;
 
 use super::Mesh;
@@ -20,17 +20,6 @@ pub(super) struct MeshReport {
     /// A method and its sweep, or why there is none.
     pub(super) swept: Vec<(Contender, Result<Sweep, String>)>,
     baselines: Vec<(&'static str, &'static str, Result<Distortion, String>)>,
-}
-
-/// Four significant digits.
-pub(super) fn digits(value: f64) -> String {
-    let scientific = format!("{value:.3e}");
-    let exponent = scientific.split_once('e').and_then(|(_, digits)| digits.parse::<i32>().ok());
-    match exponent {
-        _ if value.abs() < VANISHING => "0".to_owned(),
-        Some(exponent @ -4..6) => format!("{value:.decimals$}", decimals = (3 - exponent).max(0) as usize),
-        _ => scientific,
-    }
 }
 
 type Cell<'a> = &'a dyn Fn(&Distortion) -> String;

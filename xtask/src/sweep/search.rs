@@ -4,11 +4,10 @@ use std::fmt::Write as _;
 
 use qparam_cli::qembed::{Mixing, Weights};
 use qparam_cli::qsimplify::RemovalRule;
-use qparam_cli::sweep::{Change, Sweep, TABLE_1_Q, Trend, sweep};
+use qparam_cli::sweep::{Change, Sweep, TABLE_1_Q, Trend, digits, sweep};
 use rayon::prelude::*;
 
 use super::Mesh;
-use super::mesh_report::digits;
 use super::reading::{Boundary, Reading};
 
 /// How many readings the table shows.

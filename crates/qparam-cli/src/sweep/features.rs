@@ -4,8 +4,7 @@
 
 use serde::Serialize;
 
-use super::{Errors, VANISHING};
-use crate::table::short;
+use super::{Errors, VANISHING, digits};
 
 /// Relative changes below this count as none: what is left of rounding, and of overlap removal, is smaller.
 const LEVEL: f64 = 1e-4;
@@ -89,8 +88,8 @@ impl Features {
     pub fn sentences(&self) -> [String; 3] {
         let sum = match self.smallest {
             None => "not known, there is no map".to_owned(),
-            Some(Smallest { q, sum, inside: true }) => format!("yes, {} at q = {q}", short(sum)),
-            Some(Smallest { q, sum, inside: false }) => format!("no, {} at q = {q}", short(sum)),
+            Some(Smallest { q, sum, inside: true }) => format!("yes, {} at q = {q}", digits(sum)),
+            Some(Smallest { q, sum, inside: false }) => format!("no, {} at q = {q}", digits(sum)),
         };
         [
             format!("angle error falls as q → 1: {}", self.angle.words()),
@@ -105,7 +104,7 @@ impl Change {
     #[must_use]
     pub fn words(&self) -> String {
         let Self { trend, first, last, against } = self;
-        let way = format!("{} → {}", short(*first), short(*last));
+        let way = format!("{} → {}", digits(*first), digits(*last));
         match (trend, against) {
             (Trend::Falls, _) => format!("yes, {way} ({})", amount(*first, *last)),
             (Trend::Rises, _) => format!("no, it rises, {way} ({})", amount(*last, *first)),
@@ -121,7 +120,7 @@ impl Change {
 /// A factor where it is worth one, else per cent.
 fn amount(large: f64, small: f64) -> String {
     match large / small {
-        factor if factor >= 1.1 => format!("a factor of {}", short(factor)),
+        factor if factor >= 1.1 => format!("a factor of {}", digits(factor)),
         factor if factor.is_finite() => format!("{:.2} %", 100.0 * (1.0 - 1.0 / factor)),
         _ => "to zero".to_owned(),
     }

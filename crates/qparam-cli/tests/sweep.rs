@@ -1,5 +1,7 @@
 //! `qparam sweep`: Table 1 for any mesh.
 
+#![allow(clippy::unwrap_used, reason = "a failing unwrap fails the test")]
+
 mod common;
 
 use common::{CUBE, Folder, hill};

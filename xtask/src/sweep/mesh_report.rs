@@ -22,10 +22,13 @@ pub(super) struct MeshReport {
     baselines: Vec<(&'static str, &'static str, Result<Distortion, String>)>,
 }
 
+/// A label and its figure.
+type Row = (&'static str, fn(&Distortion) -> String);
+type PrintedRow = (&'static str, fn(&Errors) -> f64);
 type Cell<'a> = &'a dyn Fn(&Distortion) -> String;
 
 /// The rows below the paper's two.
-const MORE_ROWS: &[(&str, fn(&Distortion) -> String)] = &[
+const MORE_ROWS: &[Row] = &[
     ("flipped corners", |d| d.flipped_corners.to_string()),
     ("symmetric Dirichlet", |d| d.symmetric_dirichlet.map_or_else(|| "–".to_owned(), digits)),
 ];
@@ -100,7 +103,7 @@ impl MeshReport {
     }
 
     pub(super) fn printed_rows(&self, printed: &Printed) -> String {
-        let rows: [(&str, fn(&Errors) -> f64); 3] =
+        let rows: [PrintedRow; 3] =
             [("angle error", |e| e.angle), ("area error", |e| e.area), ("sum", Errors::sum)];
         let mut text = String::new();
         for (index, (label, value)) in rows.iter().enumerate() {

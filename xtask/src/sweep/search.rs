@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use qparam_cli::qembed::{Mixing, Weights};
 use qparam_cli::qsimplify::RemovalRule;
-use qparam_cli::sweep::{Change, Sweep, TABLE_1_Q, Trend, digits, sweep};
+use qparam_cli::sweep::{Change, Column, Sweep, TABLE_1_Q, Trend, digits, sweep};
 use rayon::prelude::*;
 
 use super::Mesh;
@@ -73,7 +73,7 @@ impl Entry {
         let run = |mesh: &Mesh| {
             let options = reading.options(&mesh.mesh).ok()?;
             let sweep = sweep(&mesh.mesh, &options, &TABLE_1_Q, &()).ok()?;
-            sweep.columns.iter().all(|column| column.is_valid()).then_some(sweep)
+            sweep.columns.iter().all(Column::is_valid).then_some(sweep)
         };
         let sweeps = meshes.iter().map(run).collect::<Option<Vec<_>>>()?;
         Some(Self { reading, sweeps })

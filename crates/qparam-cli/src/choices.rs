@@ -5,7 +5,7 @@ use qoptimize::qcurv::VertexArea;
 use qoptimize::qembed::{Mixing, Weights};
 use qoptimize::qsimplify::{CurvatureMeasure, RemovalRule, RemovedSide};
 use qoptimize::qsolve::Backend;
-use qoptimize::{Method, MoveOrder};
+use qoptimize::{AngleTerm, Method, MoveOrder};
 
 /// Mirrors a library enum with help texts for its values.
 macro_rules! choices {
@@ -25,6 +25,10 @@ choices! {
     MethodChoice => Method {
         /// The paper's stages: simplify, embed, bring the removed vertices back, remove overlaps
         Paper,
+        /// The errors themselves, minimised over injective maps with a free boundary (slower, far less distortion)
+        Direct,
+        /// Angle and area energies of the classical family, minimised in the same way
+        Conformal,
         /// Tutte 1963: every edge pulls alike
         Uniform,
         /// Floater 2003: mean value weights
@@ -85,6 +89,12 @@ choices! {
         WorstFirst,
         /// In the order in which they were found
         FirstCome,
+    }
+    AngleChoice => AngleTerm {
+        /// log²(θ/φ): well-posed on fine meshes
+        Log,
+        /// (θ/φ − 1)², Eq. 13 itself: for coarse meshes
+        Paper,
     }
     BackendChoice => Backend {
         /// Direct where memory allows, iterative above

@@ -3,7 +3,7 @@
 use qoptimize::qmesh::QuadMesh;
 use qoptimize::qmesh::obj::UvWriteSummary;
 use qoptimize::qsolve::SolveMethod;
-use qoptimize::{Distortion, RunRecord};
+use qoptimize::{DirectReport, Distortion, RunRecord, StartMethod, Stop};
 use serde::Serialize;
 
 use crate::input::Input;
@@ -183,10 +183,48 @@ fn record_lines(record: &RunRecord) -> Vec<String> {
         if overlaps.hit_limit {
             line += " (the bound on the moves ended it)";
         }
+        if overlaps.impossible > 0 {
+            line += &format!(", {} in quads that cannot be convex in any map", overlaps.impossible);
+        }
         if overlaps.stuck_on_boundary > 0 {
             line += &format!(", {} stuck on the boundary", overlaps.stuck_on_boundary);
         }
         lines.push(line);
+    }
+    if let Some(direct) = &record.direct {
+        lines.extend(direct_lines(direct));
+    }
+    lines
+}
+
+/// Start and descent, in sentences.
+fn direct_lines(direct: &DirectReport) -> Vec<String> {
+    let start = match direct.start {
+        StartMethod::Tutte => "Tutte's embedding",
+        StartMethod::Torsion => "Tutte's embedding with torsion weights",
+        _ => "untangled",
+    };
+    let descent = &direct.descent;
+    let stop = match descent.stop {
+        Stop::Converged => "converged",
+        Stop::MaxSteps => "the bound on the steps ended it",
+        Stop::Stalled => "no step helped any more",
+        _ => "stopped early",
+    };
+    let steps = counted(descent.steps, "step");
+    let mut lines = vec![format!(
+        "start: {start}; energy {:.4e} after {steps} from {:.4e}; {stop}",
+        descent.energy, descent.energy_before
+    )];
+    if !direct.exempt_faces.is_empty() {
+        let shown: Vec<String> =
+            direct.exempt_faces.iter().take(8).map(|face| (face.0 + 1).to_string()).collect();
+        lines.push(format!(
+            "{} cannot be convex in any map, because they share their opposite vertices: face {}{}",
+            counted(direct.exempt_faces.len(), "quad"),
+            shown.join(", "),
+            if direct.exempt_faces.len() > shown.len() { ", …" } else { "" }
+        ));
     }
     lines
 }

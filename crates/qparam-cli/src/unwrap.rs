@@ -135,7 +135,6 @@ fn refuse_clashes(
 /// Options that were typed though nothing reads them.
 fn notes(arguments: &UnwrapArgs, typed: &[String]) -> Vec<String> {
     const PAPER_ONLY: &[&str] = &[
-        "q",
         "rule",
         "remove-fraction",
         "remove-below",
@@ -153,7 +152,22 @@ fn notes(arguments: &UnwrapArgs, typed: &[String]) -> Vec<String> {
     ];
     const REMOVAL: &[&str] = &["remove-fraction", "remove-below", "curvature", "area", "side"];
     let method = arguments.map.method;
+    let minimises = matches!(method, MethodChoice::Direct | MethodChoice::Conformal);
     let unread = |name: &str| {
+        if name == "q" && method != MethodChoice::Paper && !minimises {
+            return Some("only paper, direct and conformal read it");
+        }
+        if !minimises && ["shape", "angle-term", "max-steps", "relative-decrease"].contains(&name) {
+            return Some("the method minimises no energy");
+        }
+        if method == MethodChoice::Conformal && ["shape", "angle-term"].contains(&name) {
+            return Some("only direct reads it");
+        }
+        if minimises
+            && ["boundary", "boundary-uv", "backend", "residual-bound", "max-iterations"].contains(&name)
+        {
+            return Some("the boundary is free, and each Newton system is factorized");
+        }
         if method != MethodChoice::Paper && PAPER_ONLY.contains(&name) {
             return Some("the method is not `paper`");
         }
@@ -245,12 +259,15 @@ pub(crate) fn method_line(map: &MapArgs, q: Option<f64>) -> String {
     fn name(choice: &impl ValueEnum) -> String {
         choice.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
     }
+    let at = |q: Option<f64>| q.map_or_else(String::new, |q| format!(", q {q}"));
     let method = name(&map.method);
     match map.method {
         MethodChoice::Lscm => format!("method {method}, free boundary"),
+        MethodChoice::Direct => format!("method {method}{}, shape {}, free boundary", at(q), map.shape),
+        MethodChoice::Conformal => format!("method {method}{}, free boundary", at(q)),
         MethodChoice::Paper => format!(
             "method {method}{}, rule {}, weights {}, boundary {}",
-            q.map_or_else(String::new, |q| format!(", q {q}")),
+            at(q),
             name(&map.rule),
             name(&map.weights),
             name(&map.boundary)

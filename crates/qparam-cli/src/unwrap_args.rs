@@ -3,14 +3,15 @@
 use std::path::PathBuf;
 
 use clap::{ArgAction, Args};
+use qoptimize::direct::DescentOptions;
 use qoptimize::qembed::BoundaryShape;
 use qoptimize::qsimplify::{SimplifyOptions, Threshold};
 use qoptimize::qsolve::SolveOptions;
-use qoptimize::{Options, OverlapOptions};
+use qoptimize::{DirectOptions, Options, OverlapOptions};
 
 use crate::choices::{
-    AreaChoice, BackendChoice, BoundaryChoice, MeasureChoice, MethodChoice, MixingChoice, OrderChoice,
-    RuleChoice, SideChoice, WeightsChoice,
+    AngleChoice, AreaChoice, BackendChoice, BoundaryChoice, MeasureChoice, MethodChoice, MixingChoice,
+    OrderChoice, RuleChoice, SideChoice, WeightsChoice,
 };
 use crate::exit::{self, Exit};
 use crate::failure::Failure;
@@ -60,7 +61,7 @@ pub(crate) struct MapArgs {
     /// Which way to a map
     #[arg(long, value_enum, default_value = "paper", help_heading = "Method")]
     pub(crate) method: MethodChoice,
-    /// Where the boundary goes (not for lscm, whose boundary is free)
+    /// Where the boundary goes (not for direct, conformal and lscm, whose boundary is free)
     #[arg(long, value_enum, default_value = "circle", help_heading = "Method")]
     pub(crate) boundary: BoundaryChoice,
     /// Positions for --boundary fixed: an OBJ with UVs on the same vertices, or lines `vertex u v` (from 1)
@@ -125,6 +126,21 @@ pub(crate) struct MapArgs {
     #[arg(long, value_name = "N", default_value = "20", value_parser = not_negative,
         help_heading = "Overlap removal (section 2.4)")]
     pub(crate) max_moves: f64,
+
+    /// Weight of the symmetric Dirichlet term (direct): more evens out all stretch, less lets quads stretch along their edges
+    #[arg(long, value_name = "C", default_value = "1", value_parser = not_negative,
+        help_heading = "Minimisation (direct, conformal)")]
+    pub(crate) shape: f64,
+    /// How angles are compared (direct)
+    #[arg(long, value_enum, default_value = "log", help_heading = "Minimisation (direct, conformal)")]
+    pub(crate) angle_term: AngleChoice,
+    /// Newton steps at most
+    #[arg(long, value_name = "N", default_value = "200", help_heading = "Minimisation (direct, conformal)")]
+    pub(crate) max_steps: usize,
+    /// Stop when a step promises to lower the energy by less than this fraction
+    #[arg(long, value_name = "R", default_value = "1e-6", value_parser = not_negative,
+        help_heading = "Minimisation (direct, conformal)")]
+    pub(crate) relative_decrease: f64,
 
     /// What solves the linear systems
     #[arg(long, value_enum, default_value = "auto", help_heading = "Linear systems")]
@@ -212,7 +228,14 @@ impl MapArgs {
                 residual_bound: self.residual_bound,
                 max_iterations: self.max_iterations,
             },
-            direct: qoptimize::DirectOptions::default(),
+            direct: DirectOptions {
+                shape: self.shape,
+                angle_term: self.angle_term.into(),
+                descent: DescentOptions {
+                    max_steps: self.max_steps,
+                    relative_decrease: self.relative_decrease,
+                },
+            },
             normalize: !self.no_normalize,
         })
     }
@@ -314,6 +337,10 @@ mod tests {
             "--lambda2=0.1",
             "--order=first-come",
             "--max-moves=1",
+            "--shape=2",
+            "--angle-term=paper",
+            "--max-steps=3",
+            "--relative-decrease=1e-3",
             "--backend=direct",
             "--residual-bound=1e-3",
             "--max-iterations=9",

@@ -1,7 +1,8 @@
 //! Good UV maps of quad meshes: overlap removal, every measure of distortion, and the whole way in one call.
 //!
 //! [`parameterize()`] maps a disk to the plane by the stages of "A Parameterization Approach for Quadrilateral Mesh",
-//! whose section 2.4 ([`overlap`]) lives here, or by a classic method to compare with. [`measure()`] tells how good any
+//! whose section 2.4 ([`overlap`]) lives here, by a classic method to compare with, or by minimising the errors
+//! themselves over maps without flips ([`direct`]). [`measure()`] tells how good any
 //! UVs are, whoever made them.
 //!
 //! ```
@@ -27,7 +28,7 @@
 //! - The proof covers one island with one boundary loop and convex faces. Maps beyond that are counted, not proven.
 //!
 //! # Modules, in reading order
-//! [`parameterize`](mod@parameterize) (the whole way) → [`overlap`] (Eqs. 11 and 12) → [`distortion`] (Eqs. 13 and 14, and
+//! [`parameterize`](mod@parameterize) (the whole way) → [`overlap`] (Eqs. 11 and 12) → [`direct`] → [`distortion`] (Eqs. 13 and 14, and
 //! the field's measures).
 
 mod convexity;

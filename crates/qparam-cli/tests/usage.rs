@@ -49,7 +49,11 @@ fn an_option_that_nothing_reads_is_noted() {
     let folder = Folder::new();
     folder.write("in.obj", hill(4));
     let run = folder.qparam(&["unwrap", "in.obj", "--method", "uniform", "--q", "0.2"]).code(0);
-    assert!(run.stderr.contains("note: --q has no effect: only paper, direct and conformal read it"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("note: --q has no effect: only paper, direct and conformal read it"),
+        "{}",
+        run.stderr
+    );
 }
 
 #[test]

@@ -131,7 +131,8 @@ fn find(environment: &Environment) -> Result<Option<(PathBuf, String)>, Failure>
     let here = environment.working_directory.join("qparam.toml");
     let home = environment.config_home.as_ref().map(|home| home.join("qparam").join("config.toml"));
     for path in std::iter::once(here).chain(home) {
-        if path.is_file() {
+        // What is there but cannot be read is an error: silently other defaults would be worse.
+        if path.symlink_metadata().is_ok() {
             let text = read(&path)?;
             return Ok(Some((path, text)));
         }

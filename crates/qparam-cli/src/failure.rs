@@ -58,6 +58,17 @@ impl Failure {
         self
     }
 
+    /// What is wrong with the command line: the first paragraph of clap's complaint.
+    pub(crate) fn usage(error: &clap::Error) -> Self {
+        let text = error.render().to_string();
+        let paragraph = text.split("\n\n").next().unwrap_or_default();
+        let mut lines = paragraph.lines().map(str::trim);
+        let message = lines.next().unwrap_or_default().trim_start_matches("error: ");
+        let mut failure = Self::new(Exit::Usage, message);
+        failure.causes.extend(lines.map(str::to_owned));
+        failure.help("`--help` lists the options")
+    }
+
     pub(crate) fn interrupted() -> Self {
         Self::new(Exit::Interrupted, "interrupted: nothing was written")
     }

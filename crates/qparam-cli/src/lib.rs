@@ -74,10 +74,12 @@ pub fn run(
     environment: &Environment,
     streams: &mut Streams<'_>,
 ) -> Exit {
-    let Parsed { cli, typed } = match config::parse(arguments.into_iter().collect(), environment) {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let json = wants_json(&arguments);
+    let Parsed { cli, typed } = match config::parse(arguments, environment) {
         Ok(parsed) => parsed,
-        Err(ParseFailure::Clap(error)) => return clap_says(&error, streams),
-        Err(ParseFailure::Config(failure)) => return fail(&failure, None, streams),
+        Err(ParseFailure::Clap(error)) => return clap_says(&error, json, streams),
+        Err(ParseFailure::Config(failure)) => return fail(&failure, json, streams),
     };
     let (result, json) = match cli.command {
         Command::Unwrap(arguments) => {
@@ -102,13 +104,24 @@ pub fn run(
     result.unwrap_or_else(|failure| fail(&failure, json, streams))
 }
 
+/// The command that was asked for a report as JSON, on a command line that may be wrong otherwise.
+fn wants_json(arguments: &[OsString]) -> Option<&'static str> {
+    let name = arguments.get(1)?;
+    let command = ["unwrap", "measure", "info"].into_iter().find(|command| name == command)?;
+    let mut options = arguments.iter().take_while(|argument| *argument != "--");
+    options.any(|argument| argument == "--json").then_some(command)
+}
+
 /// Help and version go to standard output, complaints to standard error.
-fn clap_says(error: &clap::Error, streams: &mut Streams<'_>) -> Exit {
+fn clap_says(error: &clap::Error, json: Option<&'static str>, streams: &mut Streams<'_>) -> Exit {
     let show = |color: bool| {
         let text = error.render();
         if color { text.ansi().to_string() } else { text.to_string() }
     };
     if error.use_stderr() {
+        if let Some(command) = json {
+            let _ = streams.say(&failure_json(&Failure::usage(error), command));
+        }
         let text = show(streams.stderr_color);
         streams.say_err(&text);
         return Exit::Usage;
@@ -119,6 +132,16 @@ fn clap_says(error: &clap::Error, streams: &mut Streams<'_>) -> Exit {
 
 /// The message for people; for a caller who asked for JSON, the same there.
 fn fail(failure: &Failure, json: Option<&'static str>, streams: &mut Streams<'_>) -> Exit {
+    if let Some(command) = json {
+        // When standard output is what failed, the message below remains.
+        let _ = streams.say(&failure_json(failure, command));
+    }
+    let text = failure.render(streams.stderr_color);
+    streams.say_err(&text);
+    failure.class
+}
+
+fn failure_json(failure: &Failure, command: &'static str) -> String {
     #[derive(Serialize)]
     struct Report<'a> {
         #[serde(flatten)]
@@ -126,15 +149,7 @@ fn fail(failure: &Failure, json: Option<&'static str>, streams: &mut Streams<'_>
         exit_code: u8,
         error: &'a Failure,
     }
-    if let Some(command) = json {
-        let report =
-            Report { head: report::Head::new(command), exit_code: failure.class.code(), error: failure };
-        // When standard output is what failed, the message below remains.
-        let _ = streams.say(&json_text(&report));
-    }
-    let text = failure.render(streams.stderr_color);
-    streams.say_err(&text);
-    failure.class
+    json_text(&Report { head: report::Head::new(command), exit_code: failure.class.code(), error: failure })
 }
 
 /// Indented JSON with a newline; numbers that are not finite become `null`.

@@ -50,16 +50,45 @@ pub(crate) fn run(arguments: &MeasureArgs, io: &mut Streams<'_>) -> Result<Exit,
 }
 
 fn measured(input: Input) -> Result<FileReport, Failure> {
-    let uv = input.document.corner_uv().ok_or_else(|| {
-        let corners = input.document.corner_count();
-        let missing = corners - input.document.corners_with_uv();
-        Failure::new(Exit::Input, format!("{}: {missing} of {corners} corners have no UV", input.name))
-            .help("every corner needs a texture index (`f 1/1 2/2 …`); `qparam unwrap` computes UVs")
-    })?;
+    let uv = input.document.corner_uv().ok_or_else(|| without_uv(&input))?;
     let distortion = measure(input.document.view(), &uv).map_err(|error| {
         Failure::new(Exit::Input, format!("{}: the UVs cannot be measured", input.name)).cause(&error)
     })?;
     Ok(FileReport { valid: is_valid(&distortion), file: input.name, distortion })
+}
+
+/// Corners that name no `vt`, or else such that name one which is no place in the plane.
+fn without_uv(input: &Input) -> Failure {
+    let document = &input.document;
+    let count = document.corner_count();
+    let place = |corner: usize| {
+        let face = document.view().face_start.partition_point(|&start| start as usize <= corner) - 1;
+        format!("face {} (line {})", face + 1, document.face_line(face))
+    };
+    let is_missing = |&corner: &usize| document.corner_texture(corner).is_none();
+    let fail = |text: String, help: &str| {
+        Failure::new(Exit::Input, format!("{}: {text}", input.name)).help(help.to_owned())
+    };
+    if let Some(first) = (0..count).find(is_missing) {
+        let missing = (first..count).filter(is_missing).count();
+        return fail(
+            format!("{missing} of {count} corners have no UV, the first in {}", place(first)),
+            "every corner needs a texture index (`f 1/1 2/2 …`); `qparam unwrap` computes UVs",
+        );
+    }
+    let uvs = document.texture_coordinates();
+    let is_nowhere = |&corner: &usize| {
+        let texture = document.corner_texture(corner);
+        texture.is_some_and(|texture| uvs[texture as usize].iter().any(|x| !x.is_finite()))
+    };
+    let broken = (0..count).filter(is_nowhere).count();
+    let first = (0..count)
+        .find(is_nowhere)
+        .map_or_else(String::new, |corner| format!(", the first in {}", place(corner)));
+    fail(
+        format!("{broken} of {count} corners have a UV that is not finite, or beyond 1e60{first}"),
+        "repair those `vt` lines; `qparam unwrap` computes new UVs",
+    )
 }
 
 /// File names without their folders where that leaves them different.

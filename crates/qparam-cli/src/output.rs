@@ -34,6 +34,20 @@ impl Target {
         if path.as_os_str() == "-" { Self::Stdout } else { Self::File(path.to_owned()) }
     }
 
+    /// Whether both would write the same file, by whatever names and links.
+    pub(crate) fn is_same_place(&self, other: &Self) -> bool {
+        let real = |path: &Path| {
+            let target = real_target(path).ok()?;
+            let folder = fs::canonicalize(folder_of(&target)).ok()?;
+            Some(folder.join(target.file_name()?))
+        };
+        match (self, other) {
+            (Self::Stdout, Self::Stdout) => true,
+            (Self::File(a), Self::File(b)) => a == b || real(a).is_some_and(|a| Some(a) == real(b)),
+            _ => false,
+        }
+    }
+
     /// Fails early when the target could not be written anyway: after hours of work would be late.
     pub(crate) fn probe(&self) -> Result<(), Failure> {
         let Self::File(path) = self else { return Ok(()) };

@@ -61,6 +61,11 @@ pub(crate) fn refused(error: &BuildError, input: &Input) -> Failure {
             )
             .note(format!("they are {}", list.join(", ")))
         }
+        BuildError::DuplicateFaces { faces: [f, g] } => fail(
+            Exit::Mesh,
+            format!("{} and {} are the same face twice", face(*f), face(*g)),
+            "delete one of the two lines; if the surface is meant to be double, give each side vertices of its own",
+        ),
         BuildError::InconsistentOrientation { vertices: [a, b], faces: [f, g] } => fail(
             Exit::Mesh,
             format!(
@@ -108,6 +113,12 @@ pub(crate) fn no_map(error: &ParameterizeError, mesh: &QuadMesh, input: &Input) 
             .note(format!(
                 "the edge between the vertices {} would lie along a side of the square, with faces between",
                 edge(*chord)
+            ))
+            .help("use --boundary circle"),
+        EmbedError::BoundaryFolds { edges: [first, second] } if first == second => failure
+            .note(format!(
+                "projected to its best-fit plane, the boundary has no length at the edge between the vertices {}",
+                edge(*first)
             ))
             .help("use --boundary circle"),
         EmbedError::BoundaryFolds { edges: [first, second] } => failure

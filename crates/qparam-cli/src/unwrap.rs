@@ -111,10 +111,18 @@ fn refuse_clashes(
 ) -> Result<(), Failure> {
     let refuse = |what: &str, help: &str| Err(Failure::new(Exit::Usage, what).help(help));
     let dash = |path: Option<&PathBuf>| path.is_some_and(|path| path.as_os_str() == "-");
-    if simplified == Some(target) {
+    if simplified.is_some_and(|simplified| simplified.is_same_place(target)) {
         return refuse(
             "the UVs and the simplified mesh would go to the same place",
             "name two different files with -o and --simplified",
+        );
+    }
+    let input = Target::new(&arguments.input);
+    let is_file = |target: &Target| matches!(target, Target::File(_));
+    if simplified.is_some_and(|simplified| is_file(simplified) && simplified.is_same_place(&input)) {
+        return refuse(
+            "the simplified mesh would replace the input",
+            "name another file with --simplified: what was removed cannot be brought back",
         );
     }
     if dash(Some(&arguments.input)) && dash(arguments.map.boundary_uv.as_ref()) {

@@ -34,7 +34,7 @@ pub(crate) struct UnwrapArgs {
     pub(crate) simplified: Option<PathBuf>,
 
     /// 1 is angle-true (conformal), 0 is area-true (authalic) (Eq. 10)
-    #[arg(long, value_name = "0..1", default_value = "0.5", value_parser = unit, help_heading = "Method")]
+    #[arg(long, value_name = "0..1", default_value = "0.5", value_parser = unit, allow_negative_numbers = true, help_heading = "Method")]
     pub(crate) q: f64,
     #[command(flatten)]
     pub(crate) map: MapArgs,
@@ -75,11 +75,11 @@ pub(crate) struct MapArgs {
     #[arg(long, value_enum, default_value = "guarded", help_heading = "Simplification (section 2.1)")]
     pub(crate) rule: RuleChoice,
     /// This fraction of the interior vertices are candidates for removal
-    #[arg(long, value_name = "0..1", default_value = "0.5", value_parser = unit,
+    #[arg(long, value_name = "0..1", default_value = "0.5", value_parser = unit, allow_negative_numbers = true,
         help_heading = "Simplification (section 2.1)")]
     pub(crate) remove_fraction: f64,
     /// Instead of a fraction: vertices whose curvature lies below this value are candidates
-    #[arg(long, value_name = "X", value_parser = not_negative, conflicts_with = "remove_fraction",
+    #[arg(long, value_name = "X", value_parser = not_negative, allow_negative_numbers = true, conflicts_with = "remove_fraction",
         help_heading = "Simplification (section 2.1)")]
     pub(crate) remove_below: Option<f64>,
     /// Which curvature decides
@@ -93,7 +93,7 @@ pub(crate) struct MapArgs {
     pub(crate) side: SideChoice,
 
     /// Exponent r of the edge lengths in the global embedding (Eq. 5)
-    #[arg(long, value_name = "R", default_value = "1", value_parser = not_negative,
+    #[arg(long, value_name = "R", default_value = "1", value_parser = not_negative, allow_negative_numbers = true,
         help_heading = "Embedding (sections 2.2 and 2.3)")]
     pub(crate) exponent: f64,
     /// Edge weights of the local embedding (Eqs. 6 and 8)
@@ -112,33 +112,39 @@ pub(crate) struct MapArgs {
     #[arg(long, help_heading = "Overlap removal (section 2.4)")]
     pub(crate) no_overlap_removal: bool,
     /// λ1 of Eq. 11, for the immediate one-ring; 0 < λ1 + λ2 < 1
-    #[arg(long, value_name = "L", default_value = "0.6", value_parser = unit,
+    #[arg(long, value_name = "L", default_value = "0.6", value_parser = unit, allow_negative_numbers = true,
         help_heading = "Overlap removal (section 2.4)")]
     pub(crate) lambda1: f64,
     /// λ2 of Eq. 11, for the diagonal one-ring
-    #[arg(long, value_name = "L", default_value = "0.3", value_parser = unit,
+    #[arg(long, value_name = "L", default_value = "0.3", value_parser = unit, allow_negative_numbers = true,
         help_heading = "Overlap removal (section 2.4)")]
     pub(crate) lambda2: f64,
     /// In which order overlapping vertices move
     #[arg(long, value_enum, default_value = "worst-first", help_heading = "Overlap removal (section 2.4)")]
     pub(crate) order: OrderChoice,
     /// Moves at most, as a multiple of the number of vertices
-    #[arg(long, value_name = "N", default_value = "20", value_parser = not_negative,
+    #[arg(long, value_name = "N", default_value = "20", value_parser = not_negative, allow_negative_numbers = true,
         help_heading = "Overlap removal (section 2.4)")]
     pub(crate) max_moves: f64,
 
     /// Weight of the symmetric Dirichlet term (direct): more evens out all stretch, less lets quads stretch along their edges
-    #[arg(long, value_name = "C", default_value = "1", value_parser = not_negative,
+    #[arg(long, value_name = "C", default_value = "1", value_parser = not_negative, allow_negative_numbers = true,
         help_heading = "Minimisation (direct, conformal)")]
     pub(crate) shape: f64,
     /// How angles are compared (direct)
     #[arg(long, value_enum, default_value = "log", help_heading = "Minimisation (direct, conformal)")]
     pub(crate) angle_term: AngleChoice,
     /// Newton steps at most
-    #[arg(long, value_name = "N", default_value = "200", help_heading = "Minimisation (direct, conformal)")]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "200",
+        allow_negative_numbers = true,
+        help_heading = "Minimisation (direct, conformal)"
+    )]
     pub(crate) max_steps: usize,
     /// Stop when a step promises to lower the energy by less than this fraction
-    #[arg(long, value_name = "R", default_value = "1e-6", value_parser = not_negative,
+    #[arg(long, value_name = "R", default_value = "1e-6", value_parser = not_negative, allow_negative_numbers = true,
         help_heading = "Minimisation (direct, conformal)")]
     pub(crate) relative_decrease: f64,
 
@@ -146,14 +152,20 @@ pub(crate) struct MapArgs {
     #[arg(long, value_enum, default_value = "auto", help_heading = "Linear systems")]
     pub(crate) backend: BackendChoice,
     /// Refuse a solution with a larger relative residual
-    #[arg(long, value_name = "R", default_value = "1e-8", value_parser = positive,
+    #[arg(long, value_name = "R", default_value = "1e-8", value_parser = positive, allow_negative_numbers = true,
         help_heading = "Linear systems")]
     pub(crate) residual_bound: f64,
     /// Iterations at most, for the iterative backend
-    #[arg(long, value_name = "N", default_value = "2000", help_heading = "Linear systems")]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "2000",
+        allow_negative_numbers = true,
+        help_heading = "Linear systems"
+    )]
     pub(crate) max_iterations: usize,
     /// Threads; 0 takes one per processor. The result is the same for any number
-    #[arg(long, value_name = "N", default_value = "0", value_parser = thread_count,
+    #[arg(long, value_name = "N", default_value = "0", value_parser = thread_count, allow_negative_numbers = true,
         help_heading = "Linear systems")]
     pub(crate) threads: usize,
 }

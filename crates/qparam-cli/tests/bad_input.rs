@@ -62,6 +62,7 @@ fn cases() -> Vec<(&'static str, Vec<u8>, i32)> {
             4,
         ),
         ("turned over", [SQUARE, "v 2 0 0\nv 2 1 0\n", "f 1 2 3 4\nf 2 3 6 5\n"].concat().into(), 4),
+        ("the same face twice", square("f 1 2 3 4\nf 2 3 4 1\n"), 4),
         ("Moebius", ring(7, true), 4),
         ("closed", CUBE.into(), 4),
         ("two boundaries", ring(6, false), 4),
@@ -144,4 +145,17 @@ fn failures_are_json_for_programs() {
     assert_eq!((&json["schema_version"], &json["exit_code"]), (&1.into(), &4.into()));
     assert_eq!(json["error"]["class"], "mesh");
     assert!(json["error"]["message"].as_str().unwrap().contains("closed"));
+}
+
+/// An edge that is far shorter than the digits of the plane reach has no place on a projected boundary.
+#[test]
+fn a_projected_edge_without_length_is_named() {
+    let folder = Folder::new();
+    folder.write("in.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 1 0\nf 1 2 3 4 5\n");
+    let run = folder.qparam(&["unwrap", "in.obj", "--boundary", "projection"]).code(5);
+    assert!(
+        run.stderr.contains("the boundary has no length at the edge between the vertices 4-5"),
+        "{}",
+        run.stderr
+    );
 }

@@ -105,3 +105,23 @@ fn ctrl_c_leaves_nothing_behind() {
     }
     assert!(interrupted > 0, "at least the signal at once comes before the end");
 }
+
+/// The simplified mesh goes to a place of its own, by whatever name that place is called.
+#[test]
+fn the_simplified_mesh_replaces_neither_input_nor_output() {
+    let folder = Folder::new();
+    folder.write("in.obj", hill(4));
+    let before = folder.read("in.obj");
+    let mut places = vec![("out.obj", "./out.obj"), ("out.obj", "./in.obj"), ("out.obj", "in.obj")];
+    if cfg!(unix) {
+        #[cfg(unix)]
+        std::os::unix::fs::symlink("in.obj", folder.path("link.obj")).unwrap();
+        places.push(("out.obj", "link.obj"));
+    }
+    for (output, simplified) in places {
+        folder.qparam(&["unwrap", "in.obj", "-o", output, "--simplified", simplified]).code(2);
+        assert_eq!(folder.read("in.obj"), before, "{simplified}");
+        assert!(!folder.path("out.obj").exists(), "{simplified}");
+    }
+    folder.qparam(&["unwrap", "in.obj", "-o", "in.obj", "--simplified", "simple.obj"]).code(0);
+}

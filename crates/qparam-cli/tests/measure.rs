@@ -57,7 +57,26 @@ fn a_mesh_without_uvs_is_refused() {
     folder.write("in.obj", hill(2));
     let run = folder.qparam(&["measure", "in.obj"]).code(3);
     insta::assert_snapshot!(run.stderr, @r"
-    error: in.obj: 16 of 16 corners have no UV
+    error: in.obj: 16 of 16 corners have no UV, the first in face 1 (line 15)
       help: every corner needs a texture index (`f 1/1 2/2 …`); `qparam unwrap` computes UVs
     ");
+}
+
+/// UVs of some faces only, and UVs that are no place in the plane, are told apart and named by their line.
+#[test]
+fn uvs_that_are_lacking_are_named() {
+    let folder = Folder::new();
+    let text = flat_with_uv(2);
+    let last = text.trim_end().rsplit('\n').next().unwrap().to_owned();
+    let bare = last.replace("/5", "").replace("/6", "").replace("/8", "").replace("/9", "");
+    for (content, expected) in [
+        (text.replace(&last, &bare), "4 of 16 corners have no UV, the first in face 4 (line 22)"),
+        (text.replace("vt 2 2", "vt nan 2"), "1 of 16 corners have a UV that is not finite"),
+        (text.replace("vt 2 2", "vt 2 -inf"), "or beyond 1e60, the first in face 4 (line 22)"),
+        (text.replace("vt 2 2", "vt 1e300 2"), "or beyond 1e60, the first in face 4 (line 22)"),
+    ] {
+        folder.write("in.obj", content);
+        let run = folder.qparam(&["measure", "in.obj"]).code(3);
+        assert!(run.stderr.contains(expected), "{expected}: {}", run.stderr);
+    }
 }

@@ -79,3 +79,56 @@ fn colours_are_left_out_when_asked() {
     assert!(!colored("NO_COLOR", "1"));
     assert!(!colored("UNRELATED", "1"), "a pipe is no terminal");
 }
+
+/// Whoever asks for JSON gets JSON, also when the rest of the command line, or the configuration, is wrong.
+#[test]
+fn wrong_usage_is_json_for_programs() {
+    let folder = Folder::new();
+    folder.write("in.obj", hill(2));
+    folder.write("bad.toml", "colour = 'red'\n");
+    let lines: &[(&[&str], &str)] = &[
+        (&["unwrap", "in.obj", "--json", "--q", "2"], "expected a number between 0 and 1"),
+        (&["unwrap", "in.obj", "--json", "--quiet"], "cannot be used with"),
+        (&["unwrap", "--json"], "required arguments"),
+        (&["unwrap", "in.obj", "--json", "--config", "bad.toml"], "there is no such option"),
+        (&["measure", "--json"], "required arguments"),
+        (&["info", "in.obj", "more", "--json"], "unexpected argument 'more'"),
+    ];
+    for (line, expected) in lines {
+        let json = folder.qparam(line).code(2).json();
+        assert_eq!((&json["command"], &json["exit_code"]), (&line[0].into(), &2.into()), "{line:?}");
+        assert_eq!(json["error"]["class"], "usage", "{line:?}");
+        assert!(json["error"]["message"].as_str().unwrap().contains(expected), "{line:?}: {json}");
+    }
+    // Behind `--` stand file names.
+    assert_eq!(folder.qparam(&["unwrap", "--q", "2", "--", "--json"]).code(2).stdout, "");
+}
+
+/// A negative number is a value that is out of range, not an option that does not exist.
+#[test]
+fn negative_values_are_told_their_range() {
+    let folder = Folder::new();
+    folder.write("in.obj", hill(2));
+    for (option, expected) in [
+        ("--q", "expected a number between 0 and 1"),
+        ("--exponent", "expected a number of at least 0"),
+        ("--residual-bound", "expected a number above 0"),
+        ("--threads", "expected a number of threads"),
+        ("--remove-below", "expected a number of at least 0"),
+        ("--max-iterations", "invalid digit"),
+    ] {
+        let run = folder.qparam(&["unwrap", "in.obj", option, "-1"]).code(2);
+        assert!(run.stderr.contains(expected), "{option}: {}", run.stderr);
+    }
+}
+
+/// A `qparam.toml` that is there but cannot be read does not silently give other defaults.
+#[test]
+fn an_unreadable_configuration_is_an_error() {
+    let folder = Folder::new();
+    folder.write("in.obj", hill(2));
+    std::fs::create_dir(folder.path("qparam.toml")).unwrap();
+    let run = folder.qparam(&["unwrap", "in.obj"]).code(2);
+    assert!(run.stderr.contains("qparam.toml: the configuration could not be read"), "{}", run.stderr);
+    folder.qparam(&["unwrap", "in.obj", "--no-config"]).code(0);
+}

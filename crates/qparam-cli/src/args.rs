@@ -58,6 +58,7 @@ pub(crate) struct SweepArgs {
     pub(crate) csv: Option<PathBuf>,
     /// The values of q, in the order of the columns
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "1,0.8,0.5,0.2,0", value_parser = unit,
+        allow_negative_numbers = true,
         help_heading = "Method")]
     pub(crate) q: Vec<f64>,
     #[command(flatten)]

@@ -107,7 +107,7 @@ pub fn run(
 /// The command that was asked for a report as JSON, on a command line that may be wrong otherwise.
 fn wants_json(arguments: &[OsString]) -> Option<&'static str> {
     let name = arguments.get(1)?;
-    let command = ["unwrap", "measure", "info"].into_iter().find(|command| name == command)?;
+    let command = ["unwrap", "sweep", "measure", "info"].into_iter().find(|command| name == command)?;
     let mut options = arguments.iter().take_while(|argument| *argument != "--");
     options.any(|argument| argument == "--json").then_some(command)
 }

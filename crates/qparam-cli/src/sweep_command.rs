@@ -96,6 +96,11 @@ fn check(arguments: &SweepArgs, csv: Option<&Target>) -> Result<(), Failure> {
             return refuse(format!("--q names {q} twice"), "name each value once");
         }
     }
+    let is_input =
+        |target: &Target| *target != Target::Stdout && target.is_same_place(&Target::new(&arguments.input));
+    if csv.is_some_and(is_input) {
+        return refuse("the CSV would replace the input".to_owned(), "name another file with --csv");
+    }
     if arguments.json && csv == Some(&Target::Stdout) {
         return refuse(
             "the CSV and the JSON report would both go to standard output".to_owned(),

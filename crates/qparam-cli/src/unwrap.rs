@@ -171,10 +171,11 @@ fn notes(arguments: &UnwrapArgs, typed: &[String]) -> Vec<String> {
         if method == MethodChoice::Conformal && ["shape", "angle-term"].contains(&name) {
             return Some("only direct reads it");
         }
-        if minimises
-            && ["boundary", "boundary-uv", "backend", "residual-bound", "max-iterations"].contains(&name)
-        {
-            return Some("the boundary is free, and each Newton system is factorized");
+        if minimises && ["boundary", "boundary-uv"].contains(&name) {
+            return Some("the boundary is free");
+        }
+        if minimises && ["backend", "residual-bound", "max-iterations"].contains(&name) {
+            return Some("each Newton system is factorized");
         }
         if method != MethodChoice::Paper && PAPER_ONLY.contains(&name) {
             return Some("the method is not `paper`");

@@ -125,3 +125,14 @@ fn the_simplified_mesh_replaces_neither_input_nor_output() {
     }
     folder.qparam(&["unwrap", "in.obj", "-o", "in.obj", "--simplified", "simple.obj"]).code(0);
 }
+
+/// A mesh cannot be brought back from its figures.
+#[test]
+fn the_csv_does_not_replace_the_input() {
+    let folder = Folder::new();
+    folder.write("in.obj", hill(4));
+    for csv in ["in.obj", "./in.obj"] {
+        folder.qparam(&["sweep", "in.obj", "--csv", csv]).code(2);
+        assert_eq!(folder.read("in.obj"), hill(4), "{csv}");
+    }
+}

@@ -91,6 +91,7 @@ fn wrong_usage_is_json_for_programs() {
         (&["unwrap", "in.obj", "--json", "--quiet"], "cannot be used with"),
         (&["unwrap", "--json"], "required arguments"),
         (&["unwrap", "in.obj", "--json", "--config", "bad.toml"], "there is no such option"),
+        (&["sweep", "in.obj", "--json", "--q", "-1"], "expected a number between 0 and 1"),
         (&["measure", "--json"], "required arguments"),
         (&["info", "in.obj", "more", "--json"], "unexpected argument 'more'"),
     ];

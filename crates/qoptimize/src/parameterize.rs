@@ -191,8 +191,11 @@ fn in_own_unit(mesh: &QuadMesh, mixing: Mixing) -> Cow<'_, QuadMesh> {
     if mixing == Mixing::Raw || extent == 0.0 || NEAR_ONE.contains(&extent) {
         return Cow::Borrowed(mesh);
     }
-    let factor = (-extent.log2().floor()).clamp(-1000.0, 1000.0).exp2();
-    let scaled = mesh.vertex_data(|vertex| mesh.position(vertex) * factor);
+    // In two steps: the factor that brings subnormal positions near one is itself too large for `f64`.
+    let exponent = -extent.log2().floor();
+    let half = (exponent / 2.0).floor();
+    let (first, second) = (half.exp2(), (exponent - half).exp2());
+    let scaled = mesh.vertex_data(|vertex| mesh.position(vertex) * first * second);
     Cow::Owned(mesh.clone().with_positions(scaled))
 }
 

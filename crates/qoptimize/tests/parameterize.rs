@@ -101,6 +101,22 @@ fn scaling_the_mesh_changes_nothing() {
     }
 }
 
+/// A whole number times the smallest positive `f64` is exact, so even a grid of subnormal size maps as its large sibling.
+#[test]
+fn a_mesh_of_subnormal_size_is_as_good_as_any() {
+    const SMALLEST: f64 = f64::from_bits(1);
+    let mesh = shapes::grid(6, 5);
+    // A descent ends where it is good enough, so that its last digits depend on the unit.
+    let descents = [(Method::Direct, 1e-6), (Method::Conformal, 1e-6)];
+    for (method, tolerance) in METHODS.map(|method| (method, 1e-9)).into_iter().chain(descents) {
+        let expected = parameterize(&mesh, &with(method), &()).unwrap();
+        let map = parameterize(&scaled(&mesh, SMALLEST), &with(method), &()).unwrap();
+        let difference = largest_difference(&map.uv, &expected.uv);
+        assert!(difference < tolerance, "{method:?}: {difference:e}");
+        assert!(map.distortion.is_injective(), "{method:?}");
+    }
+}
+
 /// Turning and moving the mesh changes nothing that does not look at coordinates.
 #[test]
 fn turning_the_mesh_changes_nothing() {

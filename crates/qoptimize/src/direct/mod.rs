@@ -16,6 +16,7 @@
 //! Gauss–Newton for the two error terms, projected Newton for the third ([`minimize`]); every step is bounded by the first corner
 //! area that would reach zero, so no corner ever flips.
 
+mod constraint;
 mod element;
 mod energy;
 mod hessian;

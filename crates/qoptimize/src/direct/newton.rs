@@ -109,7 +109,7 @@ pub fn minimize(
     result
 }
 
-fn descend(
+pub(super) fn descend(
     rest: &Rest,
     hessian: &mut Hessian,
     uv: &mut [Vec2],
@@ -133,7 +133,9 @@ fn descend(
         if let ControlFlow::Break(()) = observer.progress("minimise", fraction) {
             return Ok(Descent { stop: Stop::Cancelled, ..descent });
         }
-        let (direction, decrement) = hessian.newton_direction(&gradient)?;
+        let gradient = rest.constraint.restrict(hessian, gradient);
+        let (mut direction, decrement) = hessian.newton_direction(&gradient)?;
+        let decrement = rest.constraint.project(&mut direction, &gradient, decrement);
         if 0.5 * decrement <= options.relative_decrease * energy + ENERGY_FLOOR {
             return Ok(Descent { stop: Stop::Converged, ..descent });
         }

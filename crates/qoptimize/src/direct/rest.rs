@@ -4,6 +4,7 @@
 
 use crate::qmesh::{CornerId, FaceId, QuadMesh, Vec3, VertexId};
 
+use super::constraint::Constraint;
 use crate::convexity::Exempt;
 
 /// Rest angles are kept this far from 0 and π, so that no weight is infinite.
@@ -41,6 +42,8 @@ pub(super) struct Rest {
     pub(super) vertex_count: usize,
     /// One unit of the energy's lengths, in units of the mesh.
     pub(super) unit: f64,
+    /// What the map may not do besides flipping.
+    pub(super) constraint: Constraint,
 }
 
 impl Rest {
@@ -58,7 +61,8 @@ impl Rest {
                 }
             }
         }
-        let mut rest = Self { corners, ids, vertex_count: mesh.vertex_count(), unit };
+        let mut rest =
+            Self { corners, ids, vertex_count: mesh.vertex_count(), unit, constraint: Constraint::default() };
         rest.share_out();
         rest
     }

@@ -97,12 +97,14 @@ choices! {
         Paper,
     }
     BackendChoice => Backend {
-        /// Direct where memory allows, iterative above
+        /// Direct for systems of moderate size, multigrid or iterative above
         Auto,
         /// Sparse factorization
         Direct,
         /// Krylov iterations
         Iterative,
+        /// Krylov iterations with a multigrid preconditioner
+        Multigrid,
     }
 }
 

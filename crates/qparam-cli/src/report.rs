@@ -235,6 +235,7 @@ fn solver_name(method: SolveMethod) -> &'static str {
         SolveMethod::Lu => "LU",
         SolveMethod::BiCgStab => "BiCGStab",
         SolveMethod::ConjugateGradient => "conjugate gradients",
+        SolveMethod::Multigrid => "multigrid",
     }
 }
 

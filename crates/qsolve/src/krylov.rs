@@ -20,7 +20,7 @@ const GRAIN: usize = 8192;
 /// Preconditioned BiCGStab, or conjugate gradients when the matrix is symmetric and positive definite.
 ///
 /// BiCGStab uses the Cholesky factor of a symmetric neighbour of the matrix, conjugate gradients an incomplete one;
-/// both fall back to ILU(0), and that to the diagonal.
+/// both fall back to ILU(0), and that to the diagonal. [`Krylov::multigrid`] uses a multigrid cycle instead.
 #[derive(Debug)]
 pub struct Krylov<'a> {
     matrix: &'a CsrMatrix<f64>,
@@ -41,6 +41,20 @@ impl<'a> Krylov<'a> {
     ) -> Result<Self, SolveError> {
         check_matrix(matrix)?;
         let preconditioner = Preconditioner::new(matrix, structure);
+        Ok(Self { matrix, structure, preconditioner, max_iterations })
+    }
+
+    /// Preconditioned by a multigrid cycle, of the matrix's symmetric neighbour when it is not symmetric.
+    ///
+    /// # Errors
+    /// As [`Krylov::new`]; and when the matrix, or its neighbour, is not positive definite.
+    pub fn multigrid(
+        matrix: &'a CsrMatrix<f64>,
+        structure: Structure,
+        max_iterations: usize,
+    ) -> Result<Self, SolveError> {
+        check_matrix(matrix)?;
+        let preconditioner = Preconditioner::multigrid(matrix, structure)?;
         Ok(Self { matrix, structure, preconditioner, max_iterations })
     }
 
@@ -151,9 +165,10 @@ impl LinearSolver for Krylov<'_> {
     }
 
     fn method(&self) -> SolveMethod {
-        match self.structure {
-            Structure::SymmetricPositiveDefinite => SolveMethod::ConjugateGradient,
-            Structure::General => SolveMethod::BiCgStab,
+        match (&self.preconditioner, self.structure) {
+            (Preconditioner::Multigrid(_), _) => SolveMethod::Multigrid,
+            (_, Structure::SymmetricPositiveDefinite) => SolveMethod::ConjugateGradient,
+            (_, Structure::General) => SolveMethod::BiCgStab,
         }
     }
 

@@ -22,8 +22,7 @@
 //! the condition number; and the same bits on another machine, since faer adapts its kernels to the processor.
 //!
 //! Limits: real square systems. Patterns and factors are indexed in 32 bits (about two thousand million entries).
-//! Factorizations and triangular solves run on one thread, one right-hand side a thread. There is no multigrid
-//! yet: another [`LinearSolver`] can be put beside [`Factor`] and [`Krylov`].
+//! Factorizations and triangular solves run on one thread, one right-hand side a thread; [`multigrid`] uses them all.
 
 // In reading order.
 mod assembly;
@@ -39,6 +38,9 @@ mod factors;
 
 mod krylov;
 
+mod conjugate;
+pub mod multigrid;
+
 mod incomplete;
 mod preconditioner;
 mod symmetrized;
@@ -48,9 +50,11 @@ mod error;
 mod product;
 
 pub use assembly::Triplets;
+pub use conjugate::ConjugateGradients;
 pub use direct::{Factor, Symbolic};
 pub use error::SolveError;
 pub use krylov::Krylov;
+pub use multigrid::{BlockMatrix, Multigrid, MultigridOptions};
 pub use nalgebra::DMatrix;
 pub use nalgebra_sparse::{self, CsrMatrix};
 pub use options::{Backend, SolveMethod, SolveOptions, SolveRecord, Structure};

@@ -15,13 +15,16 @@ pub enum Structure {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum Backend {
-    /// Direct where the estimated fill allows, iterative above.
+    /// Direct for systems of moderate size, multigrid above.
     #[default]
     Auto,
     /// Sparse factorization.
     Direct,
     /// Krylov iterations. Where they fail, the system is factorized after all.
     Iterative,
+    /// Krylov iterations preconditioned by a multigrid cycle: their number hardly grows with the system. Where they fail, the
+    /// system is factorized after all.
+    Multigrid,
 }
 
 /// How to solve.
@@ -56,6 +59,8 @@ pub enum SolveMethod {
     BiCgStab,
     /// Preconditioned conjugate gradients.
     ConjugateGradient,
+    /// Conjugate gradients (of general systems, BiCGStab) preconditioned by a multigrid cycle.
+    Multigrid,
 }
 
 /// How a system was solved, and how well.

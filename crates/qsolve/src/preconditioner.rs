@@ -3,16 +3,19 @@
 use nalgebra_sparse::{CsrMatrix, SparseEntry};
 use rayon::prelude::*;
 
-use crate::Structure;
 use crate::factors::{Analysis, Factors};
 use crate::incomplete::IncompleteLu;
+use crate::multigrid::{Multigrid, MultigridOptions};
 use crate::symmetrized::symmetrized;
+use crate::{SolveError, Structure};
 
 /// `M ≈ A` of which `M⁻¹ r` is cheap.
 #[derive(Debug)]
 pub(crate) enum Preconditioner {
     /// The Cholesky factor of a symmetric neighbour.
     Symmetrized(Box<(Analysis, Factors)>),
+    /// A multigrid cycle of the matrix or, when that is not symmetric, of its symmetric neighbour.
+    Multigrid(Box<Multigrid<1, 1>>),
     /// ILU(0).
     Incomplete(IncompleteLu),
     /// The inverse of the diagonal.
@@ -34,6 +37,16 @@ impl Preconditioner {
             .unwrap_or_else(|| Self::Jacobi(inverse_diagonal(matrix)))
     }
 
+    /// A multigrid cycle.
+    pub(crate) fn multigrid(matrix: &CsrMatrix<f64>, structure: Structure) -> Result<Self, SolveError> {
+        let options = MultigridOptions::default();
+        let multigrid = match structure {
+            Structure::SymmetricPositiveDefinite => Multigrid::scalar(matrix, options)?,
+            Structure::General => Multigrid::scalar(&symmetrized(matrix)?, options)?,
+        };
+        Ok(Self::Multigrid(Box::new(multigrid)))
+    }
+
     /// `z = M⁻¹ r`.
     pub(crate) fn apply(&self, r: &[f64], z: &mut [f64]) {
         match self {
@@ -42,6 +55,7 @@ impl Preconditioner {
                 // Without memory for a vector `z` stays `r`, and the iterations go on unpreconditioned.
                 let _ = neighbour.0.solve_in_place(&neighbour.1, z);
             }
+            Self::Multigrid(multigrid) => multigrid.apply(r, z),
             Self::Incomplete(factors) => factors.apply(r, z),
             Self::Jacobi(inverse) => {
                 z.par_iter_mut().with_min_len(8192).zip(r).zip(inverse).for_each(|((z, r), d)| *z = r * d);

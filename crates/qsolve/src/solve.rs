@@ -15,10 +15,13 @@ use crate::{Backend, SolveError, SolveMethod, SolveOptions, SolveRecord, Structu
 /// a thread for each right-hand side, so with two the clock shows about the same; from here on memory decides.
 const LU_LIMIT: usize = 500_000;
 
+/// Unknowns above which a symmetric system is solved by multigrid first.
+const CHOLESKY_LIMIT: usize = 800_000;
+
 /// Solves `A X = B`, `A` n × n, `B` n × k.
 ///
-/// Symmetric systems are factorized unless iterations are asked for. General ones are factorized up to half a
-/// million unknowns; larger ones are iterated on first and factorized when that fails. Every answer is checked against the
+/// Symmetric systems are factorized up to 0.8 million unknowns, general ones up to half a million; larger ones are iterated
+/// on first, the symmetric ones by multigrid, and factorized when that fails. Every answer is checked against the
 /// matrix, and refined or refused when its residual is too large.
 ///
 /// ```
@@ -52,14 +55,20 @@ pub fn solve(
     if matrix.nrows() == 0 {
         return Ok((rhs.clone(), nothing_to_solve(structure)));
     }
-    let large = structure == Structure::General && matrix.nrows() > LU_LIMIT;
-    match options.backend {
-        Backend::Direct => direct(),
-        Backend::Auto if !large => match direct() {
+    let multigrid =
+        || Krylov::multigrid(matrix, structure, options.max_iterations)?.solve(rhs, options.residual_bound);
+    match (options.backend, structure) {
+        (Backend::Direct, _) => direct(),
+        (Backend::Multigrid, _) => multigrid().or_else(|_| direct()),
+        (Backend::Auto, Structure::SymmetricPositiveDefinite) if matrix.nrows() > CHOLESKY_LIMIT => {
+            multigrid().or_else(|_| direct())
+        }
+        (Backend::Auto, Structure::General) if matrix.nrows() > LU_LIMIT => iterative().or_else(|_| direct()),
+        (Backend::Auto, _) => match direct() {
             Err(SolveError::TooLarge { .. }) => iterative(),
             decided => decided,
         },
-        Backend::Auto | Backend::Iterative => iterative().or_else(|_| direct()),
+        (Backend::Iterative, _) => iterative().or_else(|_| direct()),
     }
 }
 

@@ -8,7 +8,7 @@ use crate::{SolveError, SolveMethod, SolveRecord};
 
 /// A system that is ready to be solved for any number of right-hand sides.
 ///
-/// Factorizations and Krylov methods implement it; a multigrid method can.
+/// Factorizations and Krylov methods (with any preconditioner, [`multigrid`](crate::multigrid) among them) implement it.
 pub trait LinearSolver: Sync {
     /// How many unknowns there are.
     fn unknowns(&self) -> usize;

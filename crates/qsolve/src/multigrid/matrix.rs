@@ -1,0 +1,139 @@
+//! Symmetric sparse matrices of small blocks.
+
+use std::ops::Range;
+
+use nalgebra_sparse::CsrMatrix;
+use rayon::prelude::*;
+
+use super::block::Block;
+use crate::SolveError;
+
+/// A symmetric sparse matrix of `B × B` blocks in single precision: of each block row, the columns ascending.
+#[derive(Clone, Debug)]
+pub struct BlockMatrix<const B: usize> {
+    pub(super) starts: Vec<u32>,
+    pub(super) columns: Vec<u32>,
+    pub(super) values: Vec<Block<B, B>>,
+}
+
+impl<const B: usize> BlockMatrix<B> {
+    /// The zero matrix with blocks at `columns[starts[i]..starts[i + 1]]` of each block row `i`.
+    ///
+    /// # Errors
+    /// [`SolveError::OtherPattern`] when the columns of a row do not ascend or leave out the diagonal, or `starts` does not
+    /// delimit them.
+    pub fn zeros(starts: Vec<u32>, columns: Vec<u32>) -> Result<Self, SolveError> {
+        let rows = starts.len().saturating_sub(1);
+        let delimits = starts.first() == Some(&0)
+            && starts.last().is_some_and(|&end| end as usize == columns.len())
+            && starts.is_sorted();
+        let fits = |row: usize| {
+            let columns = &columns[starts[row] as usize..starts[row + 1] as usize];
+            columns.is_sorted_by(|a, b| a < b)
+                && columns.last().is_some_and(|&last| (last as usize) < rows)
+                && columns.binary_search(&(row as u32)).is_ok()
+        };
+        if !delimits || !(0..rows).into_par_iter().with_min_len(4096).all(fits) {
+            return Err(SolveError::OtherPattern);
+        }
+        let values = vec![[[0.0; B]; B]; columns.len()];
+        Ok(Self { starts, columns, values })
+    }
+
+    /// Block rows.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Columns and blocks of a block row.
+    #[inline]
+    #[must_use]
+    pub fn row(&self, row: usize) -> (&[u32], &[Block<B, B>]) {
+        let range = self.range(row);
+        (&self.columns[range.clone()], &self.values[range])
+    }
+
+    #[inline]
+    pub(super) fn range(&self, row: usize) -> Range<usize> {
+        self.starts[row] as usize..self.starts[row + 1] as usize
+    }
+
+    /// Overwrites every block row, in parallel: `fill(row, columns, blocks)`.
+    pub fn fill_rows(&mut self, fill: impl Fn(usize, &[u32], &mut [Block<B, B>]) + Sync) {
+        let (starts, columns) = (&self.starts, &self.columns);
+        for_each_row(starts, &mut self.values, |row, values| {
+            fill(row, &columns[starts[row] as usize..starts[row + 1] as usize], values);
+        });
+    }
+
+    /// The diagonal block of a row.
+    #[must_use]
+    pub fn diagonal(&self, row: usize) -> Block<B, B> {
+        let (columns, values) = self.row(row);
+        columns.binary_search(&(row as u32)).map_or([[0.0; B]; B], |at| values[at])
+    }
+
+    /// `y = A x` in double precision; `x` and `y` have `B` entries a block row.
+    pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
+        let x = x.as_chunks::<B>().0;
+        let y = y.as_chunks_mut::<B>().0;
+        y.par_iter_mut().with_min_len(MIN_ROWS).enumerate().for_each(|(row, y)| {
+            let (columns, blocks) = self.row(row);
+            let mut sum = [0.0; B];
+            for (&column, block) in columns.iter().zip(blocks) {
+                let x = &x[column as usize];
+                for (sum, row) in sum.iter_mut().zip(block) {
+                    for (a, x) in row.iter().zip(x) {
+                        *sum += f64::from(*a) * x;
+                    }
+                }
+            }
+            *y = sum;
+        });
+    }
+}
+
+impl BlockMatrix<1> {
+    /// Each entry rounded to single precision.
+    pub(crate) fn from_csr(matrix: &CsrMatrix<f64>) -> Result<Self, SolveError> {
+        let (offsets, columns, values) = matrix.csr_data();
+        if matrix.nnz() >= u32::MAX as usize {
+            return Err(SolveError::TooLarge { unknowns: matrix.nrows() });
+        }
+        let starts = offsets.iter().map(|&start| start as u32).collect();
+        let columns = columns.iter().map(|&column| column as u32).collect();
+        let mut rounded = Self::zeros(starts, columns)?;
+        // One power of two for all, so that neither large nor small matrices leave the range of single precision.
+        let largest = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        let scale = if largest > 0.0 { (-largest.log2().round()).clamp(-1000.0, 1000.0).exp2() } else { 1.0 };
+        rounded.values.par_iter_mut().with_min_len(1 << 14).zip(values).for_each(|(to, &value)| {
+            *to = [[(scale * value) as f32]];
+        });
+        Ok(rounded)
+    }
+}
+
+/// Rows that one task takes at least.
+pub(super) const MIN_ROWS: usize = 512;
+
+/// Runs `act(row, values of the row)` for all rows, in parallel.
+pub(super) fn for_each_row<T: Send>(starts: &[u32], values: &mut [T], act: impl Fn(usize, &mut [T]) + Sync) {
+    const ROWS: usize = 2048;
+    let rows = starts.len() - 1;
+    let mut chunks = Vec::with_capacity(rows / ROWS + 1);
+    let mut rest = values;
+    for first in (0..rows).step_by(ROWS) {
+        let last = (first + ROWS).min(rows);
+        let (chunk, tail) = rest.split_at_mut((starts[last] - starts[first]) as usize);
+        chunks.push((first..last, chunk));
+        rest = tail;
+    }
+    chunks.into_par_iter().for_each(|(range, mut chunk)| {
+        for row in range {
+            let (values, tail) = chunk.split_at_mut((starts[row + 1] - starts[row]) as usize);
+            act(row, values);
+            chunk = tail;
+        }
+    });
+}

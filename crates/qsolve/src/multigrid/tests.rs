@@ -1,0 +1,58 @@
+//! What the levels promise each other.
+
+use super::aggregate::{Strong, aggregate};
+use super::kernel::{Members, Tentative};
+use super::matrix::BlockMatrix;
+
+/// A strip of nodes, each coupled to the nodes up to two places away.
+fn strip(rows: usize) -> BlockMatrix<2> {
+    let (mut starts, mut columns) = (vec![0], Vec::new());
+    for row in 0..rows {
+        columns.extend((row.saturating_sub(2)..(row + 3).min(rows)).map(|column| column as u32));
+        starts.push(columns.len() as u32);
+    }
+    BlockMatrix::zeros(starts, columns).expect("columns ascend")
+}
+
+/// The near-kernel is in the range of the tentative prolongation, exactly: `T · coarse = kernel`, also far from the origin.
+#[test]
+fn the_near_kernel_is_carried_exactly() {
+    for offset in [0.0, 1e4] {
+        let rows = 1000;
+        let kernel: Vec<[[f64; 3]; 2]> = (0..rows)
+            .map(|row| {
+                let (x, y) = (offset + row as f64, offset - (0.1 * row as f64).sin());
+                [[1.0, 0.0, -y], [0.0, 1.0, x]]
+            })
+            .collect();
+        let matrix = strip(rows);
+        let (of, count) = aggregate(&matrix, &Strong::All);
+        assert!(3 * count <= rows, "{count} aggregates of {rows} rows");
+        let tentative = Tentative::new(&kernel, &of, &Members::new(&of, count));
+        for row in 0..rows {
+            let coarse = &tentative.coarse[of[row] as usize];
+            for (block, kernel) in tentative.blocks[row].iter().zip(&kernel[row]) {
+                for (k, expected) in kernel.iter().enumerate() {
+                    let carried: f64 = block.iter().zip(coarse).map(|(t, c)| f64::from(*t) * c[k]).sum();
+                    let error = (carried - expected).abs();
+                    assert!(error <= 1e-6 * (1.0 + expected.abs()), "row {row}: {error}");
+                }
+            }
+        }
+    }
+}
+
+/// Every coupled row is in exactly one aggregate, and each aggregate is in one piece.
+#[test]
+fn aggregates_cover() {
+    let matrix = strip(500);
+    let (of, count) = aggregate(&matrix, &Strong::All);
+    let members = Members::new(&of, count);
+    let mut seen = vec![0; 500];
+    for number in 0..count {
+        let rows = members.of(number);
+        rows.iter().for_each(|&row| seen[row as usize] += 1);
+        assert!(rows.windows(2).all(|pair| pair[1] - pair[0] <= 2), "aggregate {number}: {rows:?}");
+    }
+    assert!(seen.iter().all(|&times| times == 1));
+}

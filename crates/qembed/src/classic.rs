@@ -9,8 +9,8 @@ use qsolve::SolveOptions;
 
 use crate::boundary::place;
 use crate::dirichlet::{Unknowns, balance_rows, minimize_springs};
-use crate::disk::rim;
-use crate::embed::{single, tell};
+use crate::disk::{check_patch, filled, rim};
+use crate::embed::{single, tell, without_filling};
 use crate::frame::Frame;
 use crate::{BoundaryShape, EmbedError, Embedding};
 use rayon::prelude::*;
@@ -33,7 +33,8 @@ pub enum Classic {
     Lscm,
 }
 
-/// A classic baseline. `boundary` is not used by LSCM, whose boundary is free.
+/// A classic baseline. `boundary` is not used by LSCM, whose boundary is free. Holes are filled for the time of the
+/// embedding, but by LSCM, which needs no filling.
 ///
 /// # Errors
 /// See [`EmbedError`].
@@ -45,10 +46,17 @@ pub fn embed_classic(
     observer: &dyn Observer,
 ) -> Result<Embedding, EmbedError> {
     tell(observer, 0.0)?;
-    let rim = rim(mesh)?;
     let embedding = match method {
-        Classic::Lscm => lscm::lscm(mesh, &rim, solve)?,
-        _ => with_boundary(mesh, &rim, method, boundary, solve)?,
+        Classic::Lscm => {
+            check_patch(mesh)?;
+            lscm::lscm(mesh, &rim(mesh), solve)?
+        }
+        _ => {
+            let patch = filled(mesh)?;
+            let mut embedding = with_boundary(&patch, &rim(&patch), method, boundary, solve)?;
+            embedding.uv = without_filling(embedding.uv, mesh);
+            embedding
+        }
     };
     tell(observer, 1.0)?;
     Ok(embedding)

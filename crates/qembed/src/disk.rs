@@ -1,37 +1,56 @@
-//! Only disks have a map to the plane that needs no cut. Others are refused with what they are.
+//! Only planar patches have a map to the plane that needs no cut. Others are refused with what they are.
 
-use crate::qmesh::{FaceId, HalfedgeId, Id, QuadMesh, Vec3, VertexId};
+use std::borrow::Cow;
+
+use crate::qmesh::{FaceId, Id, QuadMesh, Vec3, VertexId};
 
 use crate::EmbedError;
 
-/// Boundary loops that an error names at most.
-const NAMED_LOOPS: usize = 8;
 /// Distances that differ by less than this fraction count as equal, so that rounding does not break ties.
 const TIE: f64 = 1e-9;
 
-/// Whether the mesh is a disk: one component, one boundary loop, no handles. Every embedding asks this first; ask
-/// it yourself before other long work.
+/// Whether the mesh is a planar patch, a disk or a disk with holes: one component, no handles, at least one boundary
+/// loop. Every embedding asks this first; ask it yourself before other long work.
 ///
 /// # Errors
 /// What the mesh is instead, with elements to find it by.
-pub fn check_disk(mesh: &QuadMesh) -> Result<(), EmbedError> {
-    check_loops(mesh, &mesh.boundary_loops())
+pub fn check_patch(mesh: &QuadMesh) -> Result<(), EmbedError> {
+    let (component, components) = mesh.components();
+    if components > 1 {
+        let vertex = |wanted: u32| {
+            let face = component.iter().position(|&found| found == wanted).map(FaceId::from_index);
+            face.and_then(|face| mesh.face_vertices(face).next()).unwrap_or(VertexId(0))
+        };
+        return Err(EmbedError::SeveralComponents { components, vertices: [vertex(0), vertex(1)] });
+    }
+    let loops = mesh.boundary_loops().len();
+    match (loops, (2 - loops as i64 - mesh.euler_characteristic()) / 2) {
+        (0, genus) => Err(EmbedError::Closed { genus }),
+        (_, 0) => Ok(()),
+        (_, genus) => Err(EmbedError::Handles { genus }),
+    }
 }
 
-/// The boundary of a disk, counter-clockwise, from the vertex that lies farthest from its centroid.
+/// A planar patch with its holes filled, for the time of the embedding.
 ///
 /// # Errors
-/// When the mesh is no disk.
-pub(crate) fn rim(mesh: &QuadMesh) -> Result<Vec<VertexId>, EmbedError> {
-    let loops = mesh.boundary_loops();
-    check_loops(mesh, &loops)?;
-    let mut rim = mesh.loop_vertices(&loops[0]);
+/// When the mesh is no planar patch.
+pub(crate) fn filled(mesh: &QuadMesh) -> Result<Cow<'_, QuadMesh>, EmbedError> {
+    check_patch(mesh)?;
+    Ok(mesh.filled().map_or(Cow::Borrowed(mesh), Cow::Owned))
+}
+
+/// The outer boundary of a planar patch, counter-clockwise, from the vertex that lies farthest from its centroid.
+pub(crate) fn rim(mesh: &QuadMesh) -> Vec<VertexId> {
+    let mut loops = mesh.boundary_loops();
+    mesh.outer_first(&mut loops);
+    let mut rim = loops.first().map(|outer| mesh.loop_vertices(outer)).unwrap_or_default();
     let center = centroid(mesh, &rim);
     let start = farthest(mesh, &rim, center);
     if let Some(place) = rim.iter().position(|&vertex| vertex == start) {
         rim.rotate_left(place);
     }
-    Ok(rim)
+    rim
 }
 
 /// The vertex of `among` farthest from `point`; the lowest index of several.
@@ -61,26 +80,4 @@ pub(crate) fn centroid(mesh: &QuadMesh, walk: &[VertexId]) -> Vec3 {
         total += length;
     }
     if total > 0.0 { first + sum / total } else { first }
-}
-
-fn check_loops(mesh: &QuadMesh, loops: &[Vec<HalfedgeId>]) -> Result<(), EmbedError> {
-    let (component, components) = mesh.components();
-    if components > 1 {
-        let vertex = |wanted: u32| {
-            let face = component.iter().position(|&found| found == wanted).map(FaceId::from_index);
-            face.and_then(|face| mesh.face_vertices(face).next()).unwrap_or(VertexId(0))
-        };
-        return Err(EmbedError::SeveralComponents { components, vertices: [vertex(0), vertex(1)] });
-    }
-    let genus = (2 - loops.len() as i64 - mesh.euler_characteristic()) / 2;
-    match loops.len() {
-        0 => Err(EmbedError::Closed { genus }),
-        1 if genus == 0 => Ok(()),
-        1 => Err(EmbedError::Handles { genus }),
-        loops_found => {
-            let edge = |halfedge: HalfedgeId| [mesh.origin(halfedge), mesh.target(halfedge)];
-            let edges = loops.iter().take(NAMED_LOOPS).map(|walk| edge(walk[0])).collect();
-            Err(EmbedError::SeveralLoops { loops: loops_found, edges })
-        }
-    }
 }

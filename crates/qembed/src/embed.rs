@@ -1,11 +1,13 @@
 //! The paper's embedding: boundary, global step, local step.
 
+use std::borrow::Cow;
+
 use crate::qmesh::{Observer, QuadMesh, Vec2, VertexData};
 use crate::qsimplify::Simplified;
 use qsolve::SolveRecord;
 
 use crate::boundary::place;
-use crate::disk::rim;
+use crate::disk::{filled, rim};
 use crate::frame::Frame;
 use crate::global::global;
 use crate::local::local;
@@ -17,6 +19,9 @@ use crate::{EmbedError, EmbedOptions, Embedding, StageSolve};
 /// With nothing removed the result is that of Eq. 5 alone; with every interior vertex removed it is that of Eq. 10
 /// alone. The stage `"embed"` is reported to the observer.
 ///
+/// Holes are filled for the time of the embedding. Their rims count as kept; to have them removed like other vertices,
+/// simplify and embed [`QuadMesh::filled`] and leave its last vertices out.
+///
 /// # Errors
 /// See [`EmbedError`].
 pub fn embed(
@@ -27,7 +32,10 @@ pub fn embed(
 ) -> Result<Embedding, EmbedError> {
     check(mesh, simplified, options)?;
     tell(observer, 0.0)?;
-    let rim = rim(mesh)?;
+    let patch = filled(mesh)?;
+    let (given, mesh) = (mesh, &*patch);
+    let simplified = &*with_filling(simplified, given, mesh);
+    let rim = rim(mesh);
     let boundary = place(mesh, &rim, &options.boundary)?;
     let frame = Frame::new(&boundary);
     let mut uv = frame.enter(mesh, &rim, &boundary);
@@ -37,10 +45,32 @@ pub fn embed(
     tell(observer, 0.5)?;
     let (record, negative_weights) = local(mesh, &global.placed, &mut uv, mean_edge, options)?;
     frame.leave(&mut uv, &rim, &boundary);
+    let uv = without_filling(uv, given);
     tell(observer, 1.0)?;
     let solves = [("global", global.record), ("local", record)];
     let solves = solves.into_iter().filter_map(|(stage, record)| Some(StageSolve { stage, record: record? }));
     Ok(Embedding { uv, solves: solves.collect(), cut_off: global.cut_off, negative_weights })
+}
+
+/// `simplified` with what fills the holes of `mesh`: nothing of that is removed.
+fn with_filling<'a>(simplified: &'a Simplified, mesh: &QuadMesh, filled: &QuadMesh) -> Cow<'a, Simplified> {
+    if filled.vertex_count() == mesh.vertex_count() {
+        return Cow::Borrowed(simplified);
+    }
+    let mut kept = simplified.kept.clone().into_vec();
+    kept.resize(filled.vertex_count(), true);
+    let mut springs = simplified.springs.clone();
+    for center in filled.vertices().skip(mesh.vertex_count()) {
+        springs.extend(filled.neighbors(center).map(|rim| [rim, center]));
+    }
+    Cow::Owned(Simplified { kept: VertexData::from_vec(kept), springs, ..simplified.clone() })
+}
+
+/// The positions of the vertices of `mesh` among those of the same mesh with its holes filled.
+pub(crate) fn without_filling(uv: VertexData<Vec2>, mesh: &QuadMesh) -> VertexData<Vec2> {
+    let mut uv = uv.into_vec();
+    uv.truncate(mesh.vertex_count());
+    VertexData::from_vec(uv)
 }
 
 /// The embedding of a method that solves one system.

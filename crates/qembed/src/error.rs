@@ -30,18 +30,7 @@ pub enum EmbedError {
         /// A vertex of each of the first two.
         vertices: [VertexId; 2],
     },
-    /// The mesh has holes.
-    #[error(
-        "the boundary has {loops} loops, with edges {}: fill the holes or cut between the loops first",
-        list(edges)
-    )]
-    SeveralLoops {
-        /// How many loops.
-        loops: usize,
-        /// One boundary edge of each of the first loops, as its two vertices.
-        edges: Vec<[VertexId; 2]>,
-    },
-    /// The mesh has one boundary loop, but also handles.
+    /// The mesh has a boundary, but also handles.
     #[error("the mesh has a boundary, but also {genus} handle(s): cut each open first")]
     Handles {
         /// How many handles.
@@ -126,8 +115,4 @@ pub enum EmbedError {
     /// All boundary vertices are in one place, so nothing can be pinned.
     #[error("all boundary vertices are in one place, so LSCM has nothing to pin")]
     NothingToPin,
-}
-
-fn list(edges: &[[VertexId; 2]]) -> String {
-    edges.iter().map(|[a, b]| format!("{a}-{b}")).collect::<Vec<_>>().join(", ")
 }

@@ -18,7 +18,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Guaranteed: only disks are accepted, others are refused with what they are; every linear system is solved to a
+//! Guaranteed: only planar patches (disks, with or without holes) are accepted, others are refused with what they are;
+//! holes are filled for the time of the embedding, each by a fan around one more vertex, so that their rims end up around
+//! convex gaps of no faces; every linear system is solved to a
 //! residual below the caller's bound, or refused; weights are finite, whatever the mesh. Rotating, scaling or
 //! renumbering the mesh changes no position by more than about 1e-9 of the map (but for [`Mixing::Raw`], which
 //! depends on the unit of length, and for symmetric meshes, where the boundary may start at another of several equal
@@ -52,7 +54,7 @@ mod error;
 mod frame;
 
 pub use classic::{Classic, embed_classic};
-pub use disk::check_disk;
+pub use disk::check_patch;
 pub use embed::embed;
 pub use embedding::{Embedding, StageSolve};
 pub use error::EmbedError;

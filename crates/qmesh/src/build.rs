@@ -4,7 +4,7 @@ mod check;
 mod edges;
 mod links;
 
-use self::check::check_polygons;
+pub(crate) use self::check::check_polygons;
 use self::edges::Edges;
 use self::links::{Links, Outgoing};
 use crate::Vec3;
@@ -14,7 +14,7 @@ use crate::ids::FaceId;
 use crate::mesh::QuadMesh;
 use crate::polygons::Polygons;
 
-const NONE: u32 = u32::MAX;
+pub(crate) const NONE: u32 = u32::MAX;
 
 impl QuadMesh {
     /// Builds a mesh from polygons, in their order. Vertices that no face uses are left out
@@ -23,7 +23,7 @@ impl QuadMesh {
     /// # Errors
     /// [`BuildError`] when the polygons are no oriented manifold, with the elements that say so.
     pub fn build(polygons: Polygons) -> Result<Self, BuildError> {
-        check_polygons(polygons.view())?;
+        check_polygons(polygons.view(), |face, vertex| Err(BuildError::RepeatedVertex { face, vertex }))?;
         let source_vertex_count = polygons.positions.len();
         let Polygons { positions, face_start, mut corner_vertex } = polygons;
         let (positions, source_vertex) = drop_unused_vertices(positions, &mut corner_vertex);

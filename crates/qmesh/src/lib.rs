@@ -18,8 +18,9 @@
 //! that say so ([`BuildError`]). No input panics, and building takes `O(n)` for meshes with bounded valence,
 //! `O(n^1.5)` for any.
 //!
-//! Not guaranteed: anything about shape; faces may be non-planar, concave or of no area. Nothing is repaired: a
-//! vertex where two fans touch, an edge with three faces, or a face that is turned over have to be mended before.
+//! Not guaranteed: anything about shape; faces may be non-planar, concave or of no area. Nothing is repaired
+//! on the way: a vertex where two fans touch, an edge with three faces, or a face that is turned over is for [`charts`],
+//! which makes meshes of any polygons.
 //! Ids are `u32`: a mesh has fewer than 2³¹ corners.
 //!
 //! To read the code, begin with `ids`, `data` and `polygons`; `mesh` holds the arrays, `build` fills them, `walk` and
@@ -28,19 +29,23 @@
 //! With the feature `serde`, meshes, polygons, per-element data, options and reports can be serialised.
 
 mod build;
+pub mod charts;
 mod data;
 mod error;
+mod holes;
 mod ids;
 mod mesh;
 pub mod obj;
 pub mod observe;
 mod polygons;
+mod seams;
 #[cfg(feature = "serde")]
 mod serial;
 pub mod shapes;
 mod topology;
 mod walk;
 
+pub use charts::{Chart, Charts, Found, Repairs};
 pub use data::{CornerData, EdgeData, ElementData, FaceData, HalfedgeData, VertexData};
 pub use error::BuildError;
 pub use ids::{CornerId, EdgeId, FaceId, HalfedgeId, Id, VertexId};
@@ -48,6 +53,7 @@ pub use mesh::QuadMesh;
 pub use nalgebra;
 pub use observe::Observer;
 pub use polygons::{PolygonView, Polygons};
+pub use seams::Seams;
 pub use topology::{FaceCounts, Topology};
 
 /// A position or direction in space.

@@ -143,6 +143,21 @@ impl QuadMesh {
         self.source_vertex_count
     }
 
+    /// Says which of the caller's `count` vertices each vertex is.
+    pub(crate) fn set_sources(&mut self, sources: &[u32], count: usize) {
+        let same = sources.len() == count
+            && sources.iter().enumerate().all(|(vertex, &source)| vertex == source as usize);
+        self.source_vertex = (!same).then(|| sources.to_vec());
+        self.source_vertex_count = count;
+    }
+
+    /// Leads on to the vertices that those of `outer` come from; `self` was built from the faces of `outer`.
+    pub(crate) fn rename_sources(&mut self, outer: &Self) {
+        let sources: Vec<u32> =
+            self.vertices().map(|vertex| outer.source_vertex(VertexId(self.source_vertex(vertex)))).collect();
+        self.set_sources(&sources, outer.source_vertex_count);
+    }
+
     /// One value per vertex, computed from its id.
     pub fn vertex_data<T>(&self, value: impl FnMut(VertexId) -> T) -> VertexData<T> {
         ElementData::from_vec(self.vertices().map(value).collect())

@@ -7,7 +7,7 @@ use qembed::qmesh::{CornerData, Observer, QuadMesh, Vec2, VertexData};
 use qembed::qsimplify::{SimplifyOptions, simplify};
 use qembed::qsolve::SolveOptions;
 use qembed::{
-    BoundaryShape, Classic, EmbedError, EmbedOptions, Embedding, Mixing, StageSolve, Weights, check_disk,
+    BoundaryShape, Classic, EmbedError, EmbedOptions, Embedding, Mixing, StageSolve, Weights, check_patch,
     embed, embed_classic,
 };
 
@@ -124,7 +124,7 @@ pub struct RunRecord {
 
 /// The whole way: section 2 of the paper, or a classic baseline, with measures.
 ///
-/// The mesh must be a disk. The UVs are one per corner, and equal at all corners of a vertex. The internal unit of
+/// The mesh must be a planar patch: a disk, or a disk with holes. The UVs are one per corner, and equal at all corners of a vertex. The internal unit of
 /// length is a power of two near the size of the mesh, so meshes of any size are mapped alike, except with
 /// [`Mixing::Raw`], whose very point is that it depends on the unit.
 ///
@@ -143,7 +143,7 @@ pub fn parameterize(
     observer: &dyn Observer,
 ) -> Result<Parameterization, ParameterizeError> {
     options.check()?;
-    check_disk(mesh)?;
+    check_patch(mesh)?;
     let unit_mesh = in_own_unit(mesh, options.mixing);
     let (uv, record) = match options.method {
         Method::Paper => paper(&unit_mesh, options, observer)?,
@@ -201,8 +201,10 @@ fn in_own_unit(mesh: &QuadMesh, mixing: Mixing) -> Cow<'_, QuadMesh> {
 
 type Placed = (VertexData<Vec2>, RunRecord);
 
-/// Sections 2.1 to 2.4.
-fn paper(mesh: &QuadMesh, options: &Options, observer: &dyn Observer) -> Result<Placed, ParameterizeError> {
+/// Sections 2.1 to 2.4. Holes are filled all the way, so that their rims may be removed and move like other vertices.
+fn paper(patch: &QuadMesh, options: &Options, observer: &dyn Observer) -> Result<Placed, ParameterizeError> {
+    let filled = patch.filled();
+    let mesh = filled.as_ref().unwrap_or(patch);
     let simplified = simplify(mesh, &options.simplify, observer)?;
     let embed_options = EmbedOptions {
         q: options.q,
@@ -219,12 +221,15 @@ fn paper(mesh: &QuadMesh, options: &Options, observer: &dyn Observer) -> Result<
         Some(overlap_options) => Some(remove_overlaps(mesh, &mut embedding.uv, overlap_options, observer)?),
         None => None,
     };
-    let mut record = RunRecord::new(mesh, &embedding);
+    let mut record = RunRecord::new(patch, &embedding);
     record.removal_candidates = simplified.candidates;
     record.removed_vertices = simplified.removed.len();
     record.overlaps = overlaps;
-    normalize(&mut embedding.uv, options);
-    Ok((embedding.uv, record))
+    let mut uv = embedding.uv.into_vec();
+    uv.truncate(patch.vertex_count());
+    let mut uv = VertexData::from_vec(uv);
+    normalize(&mut uv, options);
+    Ok((uv, record))
 }
 
 /// A start, and the descent from it. Its boundary is free, whatever `options.boundary` says.

@@ -46,8 +46,11 @@ pub(super) fn lscm(
             system.couple((b, axis), (a, axis), -weight);
         }
     }
-    // Minus the area ½ Σ (xₐ y_b − x_b yₐ) over the boundary edges.
-    for [a, b] in pairs(rim) {
+    // Minus the area ½ Σ (xₐ y_b − x_b yₐ) over the boundary edges, holes included: the rim first.
+    let mut loops = mesh.boundary_loops();
+    mesh.outer_first(&mut loops);
+    let holes: Vec<_> = loops.iter().skip(1).map(|hole| mesh.loop_vertices(hole)).collect();
+    for [a, b] in pairs(rim).chain(holes.iter().flat_map(|hole| pairs(hole))) {
         for (x, y, value) in [(a, b, -0.5), (b, a, 0.5)] {
             system.couple((x, 0), (y, 1), value);
             system.couple((y, 1), (x, 0), value);

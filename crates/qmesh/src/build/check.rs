@@ -4,7 +4,11 @@ use crate::error::BuildError;
 use crate::polygons::PolygonView;
 use crate::{COORDINATE_LIMIT, Vec3};
 
-pub(super) fn check_polygons(polygons: PolygonView<'_>) -> Result<(), BuildError> {
+/// Checks arrays, indices and coordinates. `repeats(face, vertex)` hears of faces that visit a vertex twice.
+pub(crate) fn check_polygons(
+    polygons: PolygonView<'_>,
+    mut repeats: impl FnMut(u32, u32) -> Result<(), BuildError>,
+) -> Result<(), BuildError> {
     check_sizes(polygons)?;
     let count = polygons.positions.len();
     let mut sorted = Vec::new();
@@ -18,7 +22,7 @@ pub(super) fn check_polygons(polygons: PolygonView<'_>) -> Result<(), BuildError
             return Err(BuildError::IndexOutOfRange { face, vertex, count });
         }
         if let Some(vertex) = repeated(vertices, &mut sorted) {
-            return Err(BuildError::RepeatedVertex { face, vertex });
+            repeats(face, vertex)?;
         }
     }
     let beyond = |p: &Vec3| !p.iter().all(|x| x.abs() <= COORDINATE_LIMIT);

@@ -1,5 +1,6 @@
 //! Connectivity and topology, seen from outside.
 
+mod charts;
 mod halfedges;
 mod poles;
 mod refusals;

@@ -122,3 +122,36 @@ proptest! {
         }
     }
 }
+
+/// Filling holes makes a disk that contains the mesh, corner for corner; without holes there is nothing to fill.
+#[test]
+fn filled_holes_leave_the_mesh_as_it_is() {
+    for (polygons, holes) in [
+        (ring(6, 2), 1),
+        (
+            faces(
+                lists(&grid(7, 7))
+                    .into_iter()
+                    .enumerate()
+                    .filter(|(i, _)| ![8, 10, 24, 25].contains(i))
+                    .map(|(_, face)| face),
+            ),
+            3,
+        ),
+    ] {
+        let mesh = QuadMesh::build(polygons).expect("a mesh");
+        let filled = mesh.filled().expect("there are holes");
+        assert!(filled.topology().is_disk());
+        assert_eq!(filled.vertex_count(), mesh.vertex_count() + holes);
+        assert_eq!(filled.view().corner_vertex[..mesh.corner_count()], *mesh.view().corner_vertex);
+        assert!(mesh.vertices().all(|vertex| filled.position(vertex) == mesh.position(vertex)));
+        let outer = |mesh: &QuadMesh| {
+            let mut loops = mesh.boundary_loops();
+            mesh.outer_first(&mut loops);
+            mesh.loop_vertices(&loops[0])
+        };
+        assert_eq!(outer(&filled), outer(&mesh), "the longest loop stays");
+    }
+    assert_eq!(QuadMesh::build(grid(2, 2)).expect("a mesh").filled(), None);
+    assert_eq!(QuadMesh::build(cube()).expect("a mesh").filled(), None);
+}

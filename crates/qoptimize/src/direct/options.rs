@@ -2,7 +2,9 @@
 
 use crate::ParameterizeError;
 use crate::convexity::Exempt;
-use crate::direct::{AngleTerm, Descent, DescentOptions, Objective, StartMethod, find_start, minimize};
+use crate::direct::{
+    AngleTerm, Descent, DescentOptions, Objective, StartError, StartMethod, find_start, minimize,
+};
 use crate::qmesh::{FaceId, Observer, QuadMesh, Vec2, VertexData};
 
 /// What the energy needs besides q, and when the descent ends.
@@ -53,7 +55,7 @@ pub struct DirectReport {
     pub descent: Descent,
 }
 
-/// A map of the disk `mesh` with a free boundary that (locally) minimises `objective`, at the scale of the mesh.
+/// A map of the planar patch `mesh` (a disk, perhaps with holes) with a free boundary that (locally) minimises `objective`, at the scale of the mesh.
 ///
 /// Every corner turns left, but for those of [`DirectReport::exempt_faces`]. Whether the free boundary stays clear of itself is
 /// for [`Distortion`](crate::Distortion) to say. Cancelling during the descent ends it early with the map at hand.
@@ -67,14 +69,29 @@ pub fn embed(
     observer: &dyn Observer,
 ) -> Result<(VertexData<Vec2>, DirectReport), ParameterizeError> {
     let exempt = Exempt::find(mesh);
-    let start = find_start(mesh, &exempt, observer)?;
-    let mut uv = start.uv;
+    let (mut uv, start) = start(mesh, &exempt, observer)?;
     let descent = minimize(mesh, &mut uv, &exempt, objective, options, observer)?;
     let report = DirectReport {
-        start: start.method,
-        start_smallest_corner: start.smallest_corner,
+        start: start.0,
+        start_smallest_corner: start.1,
         exempt_faces: exempt.faces(),
         descent,
     };
     Ok((uv, report))
+}
+
+/// A first map, how it was found, and its smallest corner. Holes are filled for this time only.
+fn start(
+    mesh: &QuadMesh,
+    exempt: &Exempt,
+    observer: &dyn Observer,
+) -> Result<(VertexData<Vec2>, (StartMethod, f64)), StartError> {
+    let Some(filled) = mesh.filled() else {
+        let start = find_start(mesh, exempt, observer)?;
+        return Ok((start.uv, (start.method, start.smallest_corner)));
+    };
+    let start = find_start(&filled, &Exempt::find(&filled), observer)?;
+    let mut uv = start.uv.into_vec();
+    uv.truncate(mesh.vertex_count());
+    Ok((VertexData::from_vec(uv), (start.method, start.smallest_corner)))
 }

@@ -18,24 +18,20 @@
 //! measures of stretch.
 
 mod benchmark;
-mod buckets;
 mod corners;
-mod crossings;
 mod error;
-mod islands;
 mod statistics;
 mod tally;
 
 pub use benchmark::Benchmark;
-pub use crossings::CROSSING_LIMIT;
 pub use error::MeasureError;
 use qembed::qmesh::{PolygonView, Vec2};
 
 use self::corners::Surface;
-use self::crossings::{Crossings, count_crossings};
-use self::islands::{Islands, Outline};
 use self::statistics::{by_runs, quantile};
 use self::tally::{Areas, Frame, Tally};
+pub use crate::plane::CROSSING_LIMIT;
+use crate::plane::{Crossings, Islands, Outline, Scope, find_crossings};
 
 /// Every measure of a UV map; see the [module](self) for the definitions. Means over corners are plain means unless
 /// said.
@@ -153,13 +149,15 @@ pub fn measure(polygons: PolygonView<'_>, corner_uv: &[Vec2]) -> Result<Distorti
     let parts = by_runs(polygons.face_count(), |run| Tally::of(&frame, run, &areas.faces));
     parts.into_iter().for_each(|part| tally.append(part));
     let mirrored = mirrored.iter().filter(|&&m| m).count();
-    Ok(summary(&surface, tally, &islands, mirrored, &outline, crossings, benchmark))
+    Ok(summary(&surface, tally, &islands, mirrored, &outline, &crossings, benchmark))
 }
 
 fn find_islands(surface: &Surface<'_>) -> (Islands, Outline, Crossings) {
     let islands = Islands::find(surface.polygons, surface.uv);
     let outline = islands.outline();
-    let crossings = count_crossings(islands.segments(surface));
+    let at = |corner: u32| surface.uv(corner as usize);
+    let segments = islands.boundary.iter().map(|&corner| islands.segment(corner, at)).collect();
+    let crossings = find_crossings(segments, Scope::WithinIslands, 0);
     (islands, outline, crossings)
 }
 
@@ -184,7 +182,7 @@ fn summary(
     islands: &Islands,
     mirrored_islands: usize,
     outline: &Outline,
-    crossings: Crossings,
+    crossings: &Crossings,
     benchmark: Benchmark,
 ) -> Distortion {
     let corners = surface.uv.len();
@@ -248,7 +246,7 @@ fn summary(
         folded_faces: tally.folded_faces,
         negative_faces: tally.negative_faces,
         wound_faces: tally.wound_faces,
-        nonmanifold_edges: islands.nonmanifold_edges,
+        nonmanifold_edges: islands.nonmanifold.len(),
         boundary_loops: outline.loops,
         boundary_pinches: outline.pinches,
         boundary_crossings: crossings.count,

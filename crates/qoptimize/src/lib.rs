@@ -37,6 +37,8 @@ pub mod distortion;
 mod error;
 pub mod overlap;
 pub mod parameterize;
+#[allow(dead_code, unused_imports, reason = "read by the certificate")]
+mod plane;
 
 pub use convexity::Exempt;
 pub use direct::{AngleTerm, Descent, DirectOptions, DirectReport, StartMethod, Stop};

@@ -3,14 +3,14 @@
 use rayon::prelude::*;
 
 /// The items `0..n`, grouped by key.
-pub(super) struct Buckets {
+pub(crate) struct Buckets {
     start: Vec<u32>,
     items: Vec<u32>,
 }
 
 impl Buckets {
     /// A counting sort of the items by `keys`, all below `count`.
-    pub(super) fn new(keys: &[u32], count: usize) -> Self {
+    pub(crate) fn new(keys: &[u32], count: usize) -> Self {
         let mut start = vec![0_u32; count + 1];
         for &key in keys {
             start[key as usize + 1] += 1;
@@ -29,7 +29,7 @@ impl Buckets {
     }
 
     /// Sorts each bucket by `key`; equal items stay in the order of their numbers.
-    pub(super) fn sort_each<K: Ord>(&mut self, key: impl Fn(u32) -> K + Sync) {
+    pub(crate) fn sort_each<K: Ord>(&mut self, key: impl Fn(u32) -> K + Sync) {
         const BUCKETS_PER_TASK: usize = 1 << 14;
         let count = self.start.len() - 1;
         let mut tasks = Vec::with_capacity(count / BUCKETS_PER_TASK + 1);
@@ -51,7 +51,7 @@ impl Buckets {
     }
 
     /// The buckets that are not empty, in order.
-    pub(super) fn iter(&self) -> impl Iterator<Item = &[u32]> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &[u32]> {
         self.start
             .windows(2)
             .filter(|range| range[0] < range[1])

@@ -6,32 +6,40 @@
 use qembed::qmesh::{PolygonView, Vec2};
 
 use super::buckets::Buckets;
-use super::corners::Surface;
-use super::crossings::Segment;
+use super::tree::Segment;
 
-pub(super) struct Islands {
+/// No corner.
+pub(crate) const NONE: u32 = u32::MAX;
+
+pub(crate) struct Islands {
     /// The island of each face, numbered by first face.
-    pub(super) of_face: Vec<u32>,
+    pub(crate) of_face: Vec<u32>,
     /// How many there are.
-    pub(super) count: usize,
+    pub(crate) count: usize,
     /// The first corner that is the same point of the map, for each corner.
-    point: Vec<u32>,
-    /// The corners whose edge to the next corner is boundary, with that next corner.
-    boundary: Vec<[u32; 2]>,
-    /// Edges with more than two faces, or with two that run the same way.
-    pub(super) nonmanifold_edges: usize,
+    pub(crate) point: Vec<u32>,
+    /// The next corner of the same face, for each corner.
+    pub(crate) next: Vec<u32>,
+    /// The face of each corner.
+    pub(crate) face_of: Vec<u32>,
+    /// For each corner, the corner whose edge runs the other way along the same edge; [`NONE`] where not exactly one does.
+    pub(crate) twin: Vec<u32>,
+    /// The corners whose edge to the next corner is boundary.
+    pub(crate) boundary: Vec<u32>,
+    /// A corner at each edge with more than two faces, or with two that run the same way.
+    pub(crate) nonmanifold: Vec<u32>,
 }
 
 /// How the boundary runs, as a graph.
-pub(super) struct Outline {
+pub(crate) struct Outline {
     /// Connected pieces of the boundary.
-    pub(super) loops: usize,
+    pub(crate) loops: usize,
     /// Points that the boundary does not enter and leave exactly once.
-    pub(super) pinches: usize,
+    pub(crate) pinches: usize,
 }
 
 impl Islands {
-    pub(super) fn find(polygons: PolygonView<'_>, uv: &[Vec2]) -> Self {
+    pub(crate) fn find(polygons: PolygonView<'_>, uv: &[Vec2]) -> Self {
         let point = weld(polygons, uv);
         let corners = polygons.corner_count();
         let mut next = vec![0_u32; corners];
@@ -50,15 +58,18 @@ impl Islands {
         edges.sort_each(|corner| ends(corner).0.max(ends(corner).1));
 
         let mut sets = DisjointSets::new(polygons.face_count());
-        let mut boundary = Vec::new();
-        let mut nonmanifold_edges = 0;
+        let (mut boundary, mut nonmanifold) = (Vec::new(), Vec::new());
+        let mut twin = vec![NONE; corners];
         for bucket in edges.iter() {
             let high = |&corner: &u32| ends(corner).0.max(ends(corner).1);
             for edge in bucket.chunk_by(|a, b| high(a) == high(b)) {
                 match *edge {
-                    [corner] => boundary.push([corner, next[corner as usize]]),
-                    [a, b] if ends(a) != ends(b) => {}
-                    _ => nonmanifold_edges += 1,
+                    [corner] => boundary.push(corner),
+                    [a, b] if ends(a) != ends(b) => {
+                        twin[a as usize] = b;
+                        twin[b as usize] = a;
+                    }
+                    _ => nonmanifold.push(edge[0]),
                 }
                 for pair in edge.windows(2) {
                     sets.join(face_of[pair[0] as usize], face_of[pair[1] as usize]);
@@ -66,33 +77,34 @@ impl Islands {
             }
         }
         boundary.sort_unstable();
+        nonmanifold.sort_unstable();
         let (of_face, count) = sets.numbered();
-        Self { of_face, count, point, boundary, nonmanifold_edges }
+        Self { of_face, count, point, next, face_of, twin, boundary, nonmanifold }
     }
 
-    /// The boundary edges; each knows its island through the face of its corner.
-    pub(super) fn segments(&self, surface: &Surface<'_>) -> Vec<Segment> {
-        let mut face = 0;
-        let at = |corner: u32| surface.uv(corner as usize).into();
-        self.boundary
-            .iter()
-            .map(|&[a, b]| {
-                while surface.polygons.corners(face).end <= a as usize {
-                    face += 1;
-                }
-                Segment {
-                    ends: [at(a), at(b)],
-                    points: [self.point[a as usize], self.point[b as usize]],
-                    island: self.of_face[face],
-                }
-            })
-            .collect()
+    /// The points of the map at both ends of the edge that leaves `corner`.
+    pub(crate) fn ends(&self, corner: u32) -> [u32; 2] {
+        [corner, self.next[corner as usize]].map(|corner| self.point[corner as usize])
     }
 
-    pub(super) fn outline(&self) -> Outline {
-        let ends = |edge: &[u32; 2]| edge.map(|corner| self.point[corner as usize]);
-        let mut starts: Vec<u32> = self.boundary.iter().map(|edge| ends(edge)[0]).collect();
-        let mut stops: Vec<u32> = self.boundary.iter().map(|edge| ends(edge)[1]).collect();
+    /// The island of a corner.
+    pub(crate) fn island(&self, corner: u32) -> u32 {
+        self.of_face[self.face_of[corner as usize] as usize]
+    }
+
+    /// The edge that leaves `corner`, with the corner as its id.
+    pub(crate) fn segment(&self, corner: u32, at: impl Fn(u32) -> Vec2) -> Segment {
+        Segment {
+            ends: [at(corner), at(self.next[corner as usize])],
+            points: self.ends(corner),
+            island: self.island(corner),
+            id: corner,
+        }
+    }
+
+    pub(crate) fn outline(&self) -> Outline {
+        let mut starts: Vec<u32> = self.boundary.iter().map(|&corner| self.ends(corner)[0]).collect();
+        let mut stops: Vec<u32> = self.boundary.iter().map(|&corner| self.ends(corner)[1]).collect();
         starts.sort_unstable();
         stops.sort_unstable();
         let mut points = [starts.as_slice(), stops.as_slice()].concat();
@@ -105,8 +117,8 @@ impl Islands {
 
         let mut sets = DisjointSets::new(points.len());
         let place = |point: u32| points.partition_point(|&p| p < point) as u32;
-        for edge in &self.boundary {
-            let [a, b] = ends(edge);
+        for &corner in &self.boundary {
+            let [a, b] = self.ends(corner);
             sets.join(place(a), place(b));
         }
         Outline { loops: sets.numbered().1, pinches }

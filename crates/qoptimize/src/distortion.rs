@@ -25,6 +25,7 @@ mod tally;
 
 pub use benchmark::Benchmark;
 pub use error::MeasureError;
+pub(crate) use error::check_arrays;
 use qembed::qmesh::{PolygonView, Vec2};
 
 use self::corners::Surface;

@@ -31,15 +31,16 @@
 //! [`parameterize`](mod@parameterize) (the whole way) → [`overlap`] (Eqs. 11 and 12) → [`direct`] → [`distortion`] (Eqs. 13 and 14, and
 //! the field's measures).
 
+pub mod certificate;
 mod convexity;
 pub mod direct;
 pub mod distortion;
 mod error;
 pub mod overlap;
 pub mod parameterize;
-#[allow(dead_code, unused_imports, reason = "read by the certificate")]
 mod plane;
 
+pub use certificate::{Certificate, Violation, ViolationKind, certify};
 pub use convexity::Exempt;
 pub use direct::{AngleTerm, Descent, DirectOptions, DirectReport, StartMethod, Stop};
 pub use distortion::{Benchmark, Distortion, MeasureError, measure};

@@ -57,6 +57,19 @@ pub enum MeasureError {
 
 /// Everything that the measures rely on.
 pub(super) fn check(polygons: PolygonView<'_>, uv: &[Vec2]) -> Result<(), MeasureError> {
+    check_arrays(polygons, uv)?;
+    if let Some(corner) = uv.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
+        return Err(MeasureError::NonFinite { corner });
+    }
+    let finite = |&v: &u32| polygons.positions[v as usize].iter().all(|x| x.is_finite());
+    match polygons.corner_vertex.iter().find(|v| !finite(v)) {
+        Some(&vertex) => Err(MeasureError::NonFinitePosition { vertex: vertex as usize }),
+        None => Ok(()),
+    }
+}
+
+/// Whether the flat arrays fit together.
+pub(crate) fn check_arrays(polygons: PolygonView<'_>, uv: &[Vec2]) -> Result<(), MeasureError> {
     let corners = polygons.corner_count();
     let starts = polygons.face_start;
     if polygons.face_count() == 0 {
@@ -80,12 +93,5 @@ pub(super) fn check(polygons: PolygonView<'_>, uv: &[Vec2]) -> Result<(), Measur
         let vertex = polygons.corner_vertex[corner];
         return Err(MeasureError::IndexOutOfRange { corner, vertex, count });
     }
-    if let Some(corner) = uv.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
-        return Err(MeasureError::NonFinite { corner });
-    }
-    let finite = |&v: &u32| polygons.positions[v as usize].iter().all(|x| x.is_finite());
-    match polygons.corner_vertex.iter().find(|v| !finite(v)) {
-        Some(&vertex) => Err(MeasureError::NonFinitePosition { vertex: vertex as usize }),
-        None => Ok(()),
-    }
+    Ok(())
 }

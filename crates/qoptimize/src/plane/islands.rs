@@ -26,8 +26,8 @@ pub(crate) struct Islands {
     pub(crate) twin: Vec<u32>,
     /// The corners whose edge to the next corner is boundary.
     pub(crate) boundary: Vec<u32>,
-    /// A corner at each edge with more than two faces, or with two that run the same way.
-    pub(crate) nonmanifold: Vec<u32>,
+    /// A corner at each edge with more than two faces, or with two that run the same way, and how many they are.
+    pub(crate) nonmanifold: Vec<(u32, u32)>,
 }
 
 /// How the boundary runs, as a graph.
@@ -69,7 +69,7 @@ impl Islands {
                         twin[a as usize] = b;
                         twin[b as usize] = a;
                     }
-                    _ => nonmanifold.push(edge[0]),
+                    _ => nonmanifold.push((edge[0], edge.len() as u32)),
                 }
                 for pair in edge.windows(2) {
                     sets.join(face_of[pair[0] as usize], face_of[pair[1] as usize]);

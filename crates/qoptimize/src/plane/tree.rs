@@ -19,13 +19,13 @@ pub(crate) struct Segment {
 }
 
 #[derive(Clone, Copy)]
-pub(super) struct Bounds {
-    pub(super) low: Vec2,
-    pub(super) high: Vec2,
+pub(crate) struct Bounds {
+    pub(crate) low: Vec2,
+    pub(crate) high: Vec2,
 }
 
 impl Bounds {
-    pub(super) fn of(segment: &Segment) -> Self {
+    pub(crate) fn of(segment: &Segment) -> Self {
         let [a, b] = segment.ends;
         Self { low: a.inf(&b), high: a.sup(&b) }
     }
@@ -34,13 +34,13 @@ impl Bounds {
         Self { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
     }
 
-    pub(super) fn overlaps(&self, other: &Self) -> bool {
+    pub(crate) fn overlaps(&self, other: &Self) -> bool {
         (0..2).all(|k| self.low[k] <= other.high[k] && other.low[k] <= self.high[k])
     }
 }
 
-pub(super) struct Node {
-    pub(super) bounds: Bounds,
+pub(crate) struct Node {
+    pub(crate) bounds: Bounds,
     start: usize,
     end: usize,
     /// The second child; the first follows its parent. 0 in a leaf.
@@ -48,11 +48,11 @@ pub(super) struct Node {
 }
 
 impl Node {
-    pub(super) fn is_leaf(&self) -> bool {
+    pub(crate) fn is_leaf(&self) -> bool {
         self.second == 0
     }
 
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.end - self.start
     }
 }
@@ -60,7 +60,7 @@ impl Node {
 /// The tree; node 0 is its root.
 pub(crate) struct Tree {
     segments: Vec<Segment>,
-    pub(super) nodes: Vec<Node>,
+    pub(crate) nodes: Vec<Node>,
 }
 
 impl Tree {
@@ -92,15 +92,15 @@ impl Tree {
         self.split(start + middle, end);
     }
 
-    pub(super) fn children(&self, node: usize) -> [usize; 2] {
+    pub(crate) fn children(&self, node: usize) -> [usize; 2] {
         [node + 1, self.nodes[node].second]
     }
 
-    pub(super) fn segments(&self, node: &Node) -> &[Segment] {
+    pub(crate) fn segments(&self, node: &Node) -> &[Segment] {
         &self.segments[node.start..node.end]
     }
 
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.segments.len()
     }
 }

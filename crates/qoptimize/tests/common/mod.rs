@@ -3,6 +3,8 @@
 
 #![allow(dead_code, reason = "each test file uses its part")]
 
+pub(crate) mod maps;
+
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 

@@ -21,6 +21,7 @@ mod heights;
 mod hostile;
 mod implicit;
 mod lattice;
+mod ramp;
 mod round;
 mod union;
 
@@ -30,6 +31,7 @@ pub use grid::{graded_grid, grid, jittered_grid};
 pub use head::head;
 pub use heights::{bump, nose, saddle};
 pub use hostile::{Hostility, hostile_disk};
+pub use ramp::{horseshoe, ramp};
 pub use round::{cap, disk, finger, sphere};
 pub use union::disjoint_union;
 

@@ -42,7 +42,9 @@ mod plane;
 
 pub use certificate::{Certificate, Violation, ViolationKind, certify};
 pub use convexity::Exempt;
-pub use direct::{AngleTerm, Descent, DirectOptions, DirectReport, StartMethod, Stop};
+pub use direct::{
+    AngleTerm, BoundaryRepair, Descent, DirectOptions, DirectReport, ScaffoldEnd, StartMethod, Stop,
+};
 pub use distortion::{Benchmark, Distortion, MeasureError, measure};
 pub use error::ParameterizeError;
 pub use overlap::{MoveOrder, OverlapOptions, OverlapReport, remove_overlaps};

@@ -3,6 +3,7 @@
 mod buckets;
 mod crossings;
 mod islands;
+mod outlines;
 mod predicates;
 mod tree;
 
@@ -11,6 +12,7 @@ use qembed::qmesh::{PolygonView, Vec2};
 pub use crossings::CROSSING_LIMIT;
 pub(crate) use crossings::{Crossings, Scope, find_crossings};
 pub(crate) use islands::{Islands, NONE, Outline};
+pub(crate) use outlines::outline_flaws;
 pub(crate) use predicates::orientation;
 pub(crate) use tree::{Segment, Tree};
 

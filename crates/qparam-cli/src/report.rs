@@ -3,7 +3,7 @@
 use qoptimize::qmesh::QuadMesh;
 use qoptimize::qmesh::obj::UvWriteSummary;
 use qoptimize::qsolve::SolveMethod;
-use qoptimize::{DirectReport, Distortion, RunRecord, StartMethod, Stop};
+use qoptimize::{BoundaryRepair, DirectReport, Distortion, RunRecord, ScaffoldEnd, StartMethod, Stop};
 use serde::Serialize;
 
 use crate::input::Input;
@@ -216,6 +216,7 @@ fn direct_lines(direct: &DirectReport) -> Vec<String> {
         "start: {start}; energy {:.4e} after {steps} from {:.4e}; {stop}",
         descent.energy, descent.energy_before
     )];
+    lines.extend(direct.boundary_repair.as_ref().map(repair_line));
     if !direct.exempt_faces.is_empty() {
         let shown: Vec<String> =
             direct.exempt_faces.iter().take(8).map(|face| (face.0 + 1).to_string()).collect();
@@ -227,6 +228,26 @@ fn direct_lines(direct: &DirectReport) -> Vec<String> {
         ));
     }
     lines
+}
+
+/// What it cost to keep the boundary clear of itself.
+fn repair_line(repair: &BoundaryRepair) -> String {
+    let end = match repair.end {
+        ScaffoldEnd::Converged => "converged",
+        ScaffoldEnd::MaxRounds => "the bound on the rounds ended it",
+        ScaffoldEnd::Tight => "it came too close to itself, the last map before is kept",
+        _ => "stopped early",
+    };
+    format!(
+        "boundary: left free it would meet itself ({}); kept clear by a scaffold of {}, {end}; energy {:.4e} instead of \
+         {:.4e}, symmetric Dirichlet {} instead of {}",
+        counted(repair.free_crossings, "crossing"),
+        counted(repair.rounds, "round"),
+        repair.energy,
+        repair.free_energy,
+        short(repair.symmetric_dirichlet),
+        short(repair.free_symmetric_dirichlet)
+    )
 }
 
 fn solver_name(method: SolveMethod) -> &'static str {

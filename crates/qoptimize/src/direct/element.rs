@@ -48,6 +48,11 @@ fn jacobian(rest: &RestCorner, [f1x, f1y, f0x, f0y]: Edges) -> Columns {
     [f1x * i11, f1y * i11, f1x * i12 + f0x * i22, f1y * i12 + f0y * i22]
 }
 
+/// Singular values of a positive corner's map.
+pub(super) fn stretch(rest: &RestCorner, f: Edges) -> Stretch {
+    Stretch::new(jacobian(rest, f))
+}
+
 /// A derivative by the Jacobian, as one by the edge vectors.
 fn pull_back(rest: &RestCorner, [ax, ay, bx, by]: Columns) -> Edges {
     let [i11, i12, i22] = rest.inverse;

@@ -16,14 +16,17 @@
 //! Gauss–Newton for the two error terms, projected Newton for the third ([`minimize`]); every step is bounded by the first corner
 //! area that would reach zero, so no corner ever flips.
 
+mod clear;
 mod constraint;
 mod element;
+mod embed;
 mod energy;
 mod hessian;
 mod isotropic;
 mod newton;
 mod options;
 mod rest;
+mod scaffold;
 mod start;
 mod step;
 mod untangle;
@@ -31,8 +34,11 @@ mod untangle;
 #[cfg(test)]
 mod tests;
 
+pub use clear::BoundaryRepair;
+pub use embed::embed;
 pub use newton::{Descent, DescentError, DescentOptions, Stop, minimize};
-pub use options::{DirectOptions, DirectReport, embed};
+pub use options::{DirectOptions, DirectReport};
+pub use scaffold::ScaffoldEnd;
 pub use start::{Start, StartMethod, find_start};
 
 use crate::qmesh::{CornerId, Topology};

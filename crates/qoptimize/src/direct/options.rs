@@ -1,11 +1,8 @@
-//! Start and descent in one call, with a record of both.
+//! What the caller chooses, and what he is told.
 
 use crate::ParameterizeError;
-use crate::convexity::Exempt;
-use crate::direct::{
-    AngleTerm, Descent, DescentOptions, Objective, StartError, StartMethod, find_start, minimize,
-};
-use crate::qmesh::{FaceId, Observer, QuadMesh, Vec2, VertexData};
+use crate::direct::{AngleTerm, BoundaryRepair, Descent, DescentOptions, StartMethod};
+use crate::qmesh::FaceId;
 
 /// What the energy needs besides q, and when the descent ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,47 +48,8 @@ pub struct DirectReport {
     pub start_smallest_corner: f64,
     /// Quads that no map can make convex: they are held to two corners only.
     pub exempt_faces: Vec<FaceId>,
-    /// The way down.
+    /// The way down; its end is that of the last attempt.
     pub descent: Descent,
-}
-
-/// A map of the planar patch `mesh` (a disk, perhaps with holes) with a free boundary that (locally) minimises `objective`, at the scale of the mesh.
-///
-/// Every corner turns left, but for those of [`DirectReport::exempt_faces`]. Whether the free boundary stays clear of itself is
-/// for [`Distortion`](crate::Distortion) to say. Cancelling during the descent ends it early with the map at hand.
-///
-/// # Errors
-/// No start was found, a linear system could not be solved, or cancelled before there was a valid map.
-pub fn embed(
-    mesh: &QuadMesh,
-    objective: &Objective,
-    options: &DescentOptions,
-    observer: &dyn Observer,
-) -> Result<(VertexData<Vec2>, DirectReport), ParameterizeError> {
-    let exempt = Exempt::find(mesh);
-    let (mut uv, start) = start(mesh, &exempt, observer)?;
-    let descent = minimize(mesh, &mut uv, &exempt, objective, options, observer)?;
-    let report = DirectReport {
-        start: start.0,
-        start_smallest_corner: start.1,
-        exempt_faces: exempt.faces(),
-        descent,
-    };
-    Ok((uv, report))
-}
-
-/// A first map, how it was found, and its smallest corner. Holes are filled for this time only.
-fn start(
-    mesh: &QuadMesh,
-    exempt: &Exempt,
-    observer: &dyn Observer,
-) -> Result<(VertexData<Vec2>, (StartMethod, f64)), StartError> {
-    let Some(filled) = mesh.filled() else {
-        let start = find_start(mesh, exempt, observer)?;
-        return Ok((start.uv, (start.method, start.smallest_corner)));
-    };
-    let start = find_start(&filled, &Exempt::find(&filled), observer)?;
-    let mut uv = start.uv.into_vec();
-    uv.truncate(mesh.vertex_count());
-    Ok((VertexData::from_vec(uv), (start.method, start.smallest_corner)))
+    /// What it took to keep the boundary clear of itself; `None` where it was so anyway.
+    pub boundary_repair: Option<BoundaryRepair>,
 }

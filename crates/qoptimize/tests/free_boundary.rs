@@ -1,0 +1,86 @@
+//! Free boundaries: they never pass themselves, and what keeps them apart costs nothing where nothing is needed.
+
+use qoptimize::direct::{DescentOptions, Objective, embed, find_start, minimize};
+use qoptimize::qmesh::{QuadMesh, shapes};
+use qoptimize::{AngleTerm, Exempt, Method, Options, ScaffoldEnd, measure, parameterize};
+
+fn overlapping() -> Vec<(&'static str, QuadMesh)> {
+    vec![
+        ("a ramp of more than a turn", shapes::ramp(1.2, 36, 3)),
+        ("a long spiral ramp", shapes::ramp(2.5, 80, 2)),
+        ("a C whose ends want its gap", shapes::horseshoe(0.04, 1.0, 48, 6)),
+    ]
+}
+
+/// The map of least energy lies on itself; the map that comes out does not, and is worse only as far as that needs. The turns of
+/// a ramp find room beside each other without much distortion.
+#[test]
+fn boundaries_that_would_meet_are_kept_apart() {
+    for (name, mesh) in overlapping() {
+        let (uv, report) = embed(&mesh, &Objective::default(), &DescentOptions::default(), &()).unwrap();
+        let distortion = measure(mesh.view(), &mesh.to_corners(&uv)).unwrap();
+        assert!(distortion.is_injective(), "{name}: {distortion:?}");
+        let repair = report.boundary_repair.expect(name);
+        assert!(repair.free_crossings > 0, "{name}: {repair:?}");
+        assert_eq!(repair.end, ScaffoldEnd::Converged, "{name}: {repair:?}");
+        assert!(repair.energy > repair.free_energy, "{name}: {repair:?}");
+        assert!(repair.symmetric_dirichlet < repair.free_symmetric_dirichlet + 0.01, "{name}: {repair:?}");
+        assert_eq!(report.descent.energy, repair.energy, "{name}");
+    }
+}
+
+/// Every objective, and also after normalisation: the measures prove it on the coordinates that the caller gets.
+#[test]
+fn every_objective_is_kept_clear() {
+    let mesh = shapes::ramp(1.3, 30, 2);
+    for (method, angle_term, q) in [
+        (Method::Conformal, AngleTerm::Log, 0.5),
+        (Method::Conformal, AngleTerm::Log, 1.0),
+        (Method::Direct, AngleTerm::Paper, 0.2),
+        (Method::Direct, AngleTerm::Log, 1.0),
+    ] {
+        let mut options = Options { method, q, ..Options::default() };
+        options.direct.angle_term = angle_term;
+        let map = parameterize(&mesh, &options, &()).unwrap();
+        assert!(map.distortion.is_injective(), "{method:?} {q}: {:?}", map.record.direct);
+    }
+}
+
+/// Where the free boundary is clear of itself anyway, nothing is touched: the map is that of the bare descent, bit for bit.
+#[test]
+fn clear_boundaries_are_left_alone() {
+    for mesh in [shapes::bump(8, 0.6), shapes::ramp(0.8, 30, 3), shapes::horseshoe(0.2, 0.3, 30, 4)] {
+        let (objective, options) = (Objective::default(), DescentOptions::default());
+        let exempt = Exempt::find(&mesh);
+        let mut bare = find_start(&mesh, &exempt, &()).unwrap().uv;
+        let descent = minimize(&mesh, &mut bare, &exempt, &objective, &options, &()).unwrap();
+        let (uv, report) = embed(&mesh, &objective, &options, &()).unwrap();
+        assert_eq!(report.boundary_repair, None);
+        assert_eq!(report.descent, descent);
+        assert!(uv.iter().zip(bare.iter()).all(|(a, b)| a == b));
+    }
+}
+
+/// Stopped at any of its reports, the work ends with a map that is valid and clear of itself.
+#[test]
+fn stopping_leaves_a_clear_map() {
+    use std::ops::ControlFlow;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    let mesh = shapes::ramp(1.2, 24, 2);
+    let run = |limit: usize| {
+        let calls = AtomicUsize::new(0);
+        let observer = |_: &'static str, _: f64| match calls.fetch_add(1, Ordering::Relaxed) {
+            n if n >= limit => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        };
+        let (uv, report) =
+            embed(&mesh, &Objective::default(), &DescentOptions::default(), &observer).unwrap();
+        let distortion = measure(mesh.view(), &mesh.to_corners(&uv)).unwrap();
+        assert!(report.boundary_repair.is_some() || limit < 20, "{limit}");
+        (distortion, calls.into_inner())
+    };
+    let total = run(usize::MAX).1;
+    for limit in (0..total).step_by(9) {
+        assert!(run(limit).0.is_injective(), "stopped at report {limit}");
+    }
+}

@@ -20,12 +20,14 @@
 mod benchmark;
 mod corners;
 mod error;
+mod faces;
 mod statistics;
 mod tally;
 
 pub use benchmark::Benchmark;
 pub use error::MeasureError;
 pub(crate) use error::check_arrays;
+pub use faces::{FaceMeasures, measure_faces};
 use qembed::qmesh::{PolygonView, Vec2};
 
 use self::corners::Surface;

@@ -45,7 +45,7 @@ pub use convexity::Exempt;
 pub use direct::{
     AngleTerm, BoundaryRepair, Descent, DirectOptions, DirectReport, ScaffoldEnd, StartMethod, Stop,
 };
-pub use distortion::{Benchmark, Distortion, MeasureError, measure};
+pub use distortion::{Benchmark, Distortion, FaceMeasures, MeasureError, measure, measure_faces};
 pub use error::ParameterizeError;
 pub use overlap::{MoveOrder, OverlapOptions, OverlapReport, remove_overlaps};
 pub use parameterize::{Method, Options, Parameterization, RunRecord, parameterize};

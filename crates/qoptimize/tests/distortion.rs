@@ -4,7 +4,7 @@ mod common;
 
 use common::{Measures, Random, random_map, slow_measures};
 use proptest::prelude::*;
-use qoptimize::distortion::{Distortion, MeasureError, measure};
+use qoptimize::distortion::{Distortion, MeasureError, measure, measure_faces};
 use qoptimize::qmesh::nalgebra::Rotation2;
 use qoptimize::qmesh::{Polygons, QuadMesh, Vec2, Vec3, shapes};
 
@@ -351,4 +351,42 @@ fn same_bits_for_any_number_of_threads() {
         pool.install(|| format!("{:?}", measure(mesh.view(), &uv).unwrap()))
     };
     assert_eq!(on(1), on(3));
+}
+
+/// What faces have adds up to what the whole map has: areas to equal areas, the largest ratio of stretches to the largest
+/// of all, angle errors to their mean; and the faces with a flipped corner are as many.
+#[test]
+fn measures_of_faces_add_up() {
+    let mesh = shapes::bump(6, 0.7);
+    for flip in [false, true] {
+        let mut uv = corner_uv(&mesh, |p| Vec2::new(p.x + 0.2 * p.y * p.z, p.y - 0.1 * p.x * p.x));
+        if flip {
+            uv[0] = uv[2] * 1.5 - uv[0] * 0.5;
+        }
+        let (whole, faces) = (measure(mesh.view(), &uv).unwrap(), measure_faces(mesh.view(), &uv).unwrap());
+        assert_eq!(faces.flipped.iter().filter(|&&flipped| flipped).count(), whole.flipped_faces);
+        assert_eq!((faces.island.len(), faces.islands), (mesh.face_count(), whole.islands));
+        if flip {
+            assert!(faces.symmetric_dirichlet[0].is_infinite() && faces.flipped[0]);
+            continue;
+        }
+        let largest = faces.singular_ratio.iter().copied().fold(1.0, f64::max);
+        assert!((largest - whole.singular_ratio_max.unwrap()).abs() < 1e-12);
+        // All faces are quads: the mean over faces is the mean over corners, which bounds the root mean square from below.
+        let mean = faces.angle_degrees.iter().sum::<f64>() / mesh.face_count() as f64;
+        assert!(mean > 0.0 && mean <= whole.angle_rms_degrees);
+        assert!(faces.symmetric_dirichlet.iter().all(|&sd| sd >= 1.0 - 1e-12));
+        assert!(
+            faces.symmetric_dirichlet.iter().copied().fold(1.0, f64::max)
+                <= whole.symmetric_dirichlet_max.unwrap() + 1e-12
+        );
+    }
+    // Twice as wide to the right of the middle: areas are off by a factor of two between the halves, by 4/3 and 2/3 of the mean.
+    let flat = shapes::grid(4, 4);
+    let uv = corner_uv(&flat, |p| Vec2::new(p.x + (p.x - 2.0).max(0.0), p.y));
+    let faces = measure_faces(flat.view(), &uv).unwrap();
+    for (face, ratio) in faces.area_ratio.iter().enumerate() {
+        let expected = if face % 4 < 2 { 2.0 / 3.0 } else { 4.0 / 3.0 };
+        assert!((ratio - expected).abs() < 1e-12 && faces.angle_degrees[face] < 1e-6, "face {face}: {ratio}");
+    }
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use crate::exit;
+pub(crate) use crate::picture_args::{LayoutArgs, RenderArgs};
 pub(crate) use crate::unwrap_args::{MapArgs, UnwrapArgs, unit};
 
 /// UV maps for quad meshes.
@@ -33,6 +34,10 @@ pub(crate) enum Command {
     Measure(MeasureArgs),
     /// Say what a mesh is: counts, topology, what is odd
     Info(InfoArgs),
+    /// Draw a mesh in space with its UVs: checkerboard, heat maps, islands, materials (PNG)
+    Render(RenderArgs),
+    /// Draw the map itself, flat: islands, seams in pairs, heat maps, texels (SVG or PNG)
+    Layout(LayoutArgs),
     /// Print a completion script for a shell
     Completions {
         /// The shell

@@ -42,7 +42,11 @@ mod output;
 mod translate;
 
 mod info;
+mod layout_command;
 mod measure;
+pub mod picture;
+mod picture_args;
+mod render_command;
 pub mod sweep;
 mod sweep_command;
 mod threads;
@@ -98,6 +102,8 @@ pub fn run(
             let InfoArgs { json, .. } = arguments;
             (info::run(&arguments, streams), json.then_some("info"))
         }
+        Command::Render(arguments) => (render_command::run(&arguments, streams), None),
+        Command::Layout(arguments) => (layout_command::run(&arguments, streams), None),
         Command::Completions { shell } => (pages::completions(shell, streams), None),
         Command::Man { command } => (pages::man(command.as_deref(), streams), None),
     };

@@ -58,7 +58,7 @@ fn measured(input: Input) -> Result<FileReport, Failure> {
 }
 
 /// Corners that name no `vt`, or else such that name one which is no place in the plane.
-fn without_uv(input: &Input) -> Failure {
+pub(crate) fn without_uv(input: &Input) -> Failure {
     let document = &input.document;
     let count = document.corner_count();
     let place = |corner: usize| {

@@ -3,6 +3,7 @@
 //! Everything is measured on *corner triangles* (previous, this, next corner): four a quad, both diagonals, so that
 //! none is preferred. They cover a quad twice.
 
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 use qembed::qmesh::{PolygonView, Vec2, Vec3};
@@ -32,6 +33,23 @@ pub(super) struct Corner {
     pub(super) space_area: f64,
     /// Signed area in the plane; its sign is exact.
     pub(super) plane_area: f64,
+}
+
+impl Corner {
+    /// In [0, π].
+    pub(super) fn space_angle(&self) -> f64 {
+        (2.0 * self.space_area).atan2(self.space[0].dot(&self.space[1]))
+    }
+
+    /// In [0, 2π); 0 where an edge has no length. `mirror` is −1 on islands that were mirrored.
+    pub(super) fn plane_angle(&self, mirror: f64) -> f64 {
+        let [next, previous] = self.plane;
+        if next.norm_squared() == 0.0 || previous.norm_squared() == 0.0 {
+            return 0.0;
+        }
+        let angle = (2.0 * self.plane_area * mirror).atan2(next.dot(&previous));
+        if angle < 0.0 { angle + TAU } else { angle }
+    }
 }
 
 impl<'a> Surface<'a> {

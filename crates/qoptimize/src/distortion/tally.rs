@@ -1,6 +1,5 @@
 //! The measures of this crate, summed over the corners.
 
-use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::corners::{Corner, Stretch, Surface};
@@ -15,7 +14,7 @@ const DEGENERATE: f64 = 1e-14;
 const STRETCH_LIMIT: f64 = 1e150;
 
 /// A corner triangle's share of its face's area: a quad's four cover it twice, a triangle's three are the same.
-fn face_weight(degree: usize) -> f64 {
+pub(super) fn face_weight(degree: usize) -> f64 {
     match degree {
         3 => 1.0 / 3.0,
         4 => 0.5,
@@ -172,15 +171,7 @@ impl Tally {
 
     /// Eq. 13.
     fn add_angle(&mut self, corner: &Corner, mirror: f64) {
-        let theta = (2.0 * corner.space_area).atan2(corner.space[0].dot(&corner.space[1]));
-        let [next, previous] = corner.plane;
-        let mut phi = (2.0 * corner.plane_area * mirror).atan2(next.dot(&previous));
-        if phi < 0.0 {
-            phi += TAU;
-        }
-        if next.norm_squared() == 0.0 || previous.norm_squared() == 0.0 {
-            phi = 0.0;
-        }
+        let (theta, phi) = (corner.space_angle(), corner.plane_angle(mirror));
         self.angle_clamped += usize::from(phi < ANGLE_CLAMP);
         self.angle_squares += (theta - phi).powi(2);
         let divisor = phi.max(ANGLE_CLAMP);

@@ -1,9 +1,8 @@
 //! Good UV maps of quad meshes: overlap removal, every measure of distortion, and the whole way in one call.
 //!
-//! [`parameterize()`] maps a disk to the plane by the stages of "A Parameterization Approach for Quadrilateral Mesh",
-//! whose section 2.4 ([`overlap`]) lives here, by a classic method to compare with, or by minimising the errors
-//! themselves over maps without flips ([`direct`]). [`measure()`] tells how good any
-//! UVs are, whoever made them.
+//! [`parameterize()`] maps a disk to the plane by minimising angle and area errors over maps without flips ([`direct`], the
+//! default), by the stages of "A Parameterization Approach for Quadrilateral Mesh", whose section 2.4 ([`overlap`]) lives
+//! here, or by a classic method to compare with. [`measure()`] tells how good any UVs are, whoever made them.
 //!
 //! ```
 //! use qoptimize::{Options, parameterize, qmesh::shapes};
@@ -39,6 +38,7 @@ mod error;
 pub mod overlap;
 pub mod parameterize;
 mod plane;
+mod preset;
 
 pub use certificate::{Certificate, Violation, ViolationKind, certify};
 pub use convexity::Exempt;
@@ -49,4 +49,5 @@ pub use distortion::{Benchmark, Distortion, FaceMeasures, MeasureError, measure,
 pub use error::ParameterizeError;
 pub use overlap::{MoveOrder, OverlapOptions, OverlapReport, remove_overlaps};
 pub use parameterize::{Method, Options, Parameterization, RunRecord, parameterize};
+pub use preset::Preset;
 pub use qembed::{self, qcurv, qmesh, qsimplify, qsolve};

@@ -22,11 +22,11 @@ use crate::overlap::{OverlapOptions, OverlapReport, remove_overlaps};
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Method {
-    /// The paper's stages.
-    #[default]
-    Paper,
     /// The errors themselves minimised over injective maps with a free boundary: see [`crate::direct`].
+    #[default]
     Direct,
+    /// The paper's stages.
+    Paper,
     /// `q · MIPS + (1 − q) · (det + 1/det)/2` in the same way.
     Conformal,
     /// Tutte 1963.
@@ -44,7 +44,7 @@ pub enum Method {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default))]
 pub struct Options {
-    /// Default `Paper`.
+    /// Default `Direct`.
     pub method: Method,
     /// 1 angle-true (conformal), 0 area-true (authalic). Default 0.5.
     pub q: f64,

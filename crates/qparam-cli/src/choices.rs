@@ -5,7 +5,7 @@ use qoptimize::qcurv::VertexArea;
 use qoptimize::qembed::{Mixing, Weights};
 use qoptimize::qsimplify::{CurvatureMeasure, RemovalRule, RemovedSide};
 use qoptimize::qsolve::Backend;
-use qoptimize::{AngleTerm, Method, MoveOrder};
+use qoptimize::{AngleTerm, Method, MoveOrder, Preset};
 
 /// Mirrors a library enum with help texts for its values.
 macro_rules! choices {
@@ -23,10 +23,10 @@ macro_rules! choices {
 
 choices! {
     MethodChoice => Method {
+        /// Angle and area errors themselves, minimised over maps that cannot fold, with a free boundary
+        Direct,
         /// The paper's stages: simplify, embed, bring the removed vertices back, remove overlaps
         Paper,
-        /// The errors themselves, minimised over injective maps with a free boundary (slower, far less distortion)
-        Direct,
         /// Angle and area energies of the classical family, minimised in the same way
         Conformal,
         /// Tutte 1963: every edge pulls alike
@@ -37,6 +37,20 @@ choices! {
         Harmonic,
         /// Lévy et al. 2002: least squares conformal, free boundary
         Lscm,
+    }
+    PresetChoice => Preset {
+        /// The default: angles, areas and stretch alike (q 0.5, shape 1)
+        Balanced,
+        /// Angles above all (method conformal, q 1)
+        Conformal,
+        /// As rigid as possible (q 0.95, shape 1)
+        ArapLike,
+        /// One texel density everywhere (q 0.5, shape 0.5)
+        EvenTexels,
+        /// Least symmetric Dirichlet energy: cloth, peeling, remeshing (q 0.5, shape 10)
+        LeastStretch,
+        /// Eqs. 13 and 14 themselves: coarse meshes only (q 0.5, shape 0.1, angle term paper)
+        PaperErrors,
     }
     RuleChoice => RemovalRule {
         /// Remove only while the graph stays 3-connected
@@ -105,6 +119,21 @@ choices! {
         Iterative,
         /// Krylov iterations with a multigrid preconditioner
         Multigrid,
+    }
+}
+
+impl PresetChoice {
+    /// The options that it sets, and their values as one would type them.
+    pub(crate) fn arguments(self) -> [(&'static str, String); 4] {
+        let preset = Preset::from(self);
+        let method = if preset.method() == Method::Conformal { "conformal" } else { "direct" };
+        let angle_term = if preset.angle_term() == AngleTerm::Paper { "paper" } else { "log" };
+        [
+            ("method", method.to_owned()),
+            ("q", preset.q().to_string()),
+            ("shape", preset.shape().to_string()),
+            ("angle-term", angle_term.to_owned()),
+        ]
     }
 }
 

@@ -4,9 +4,10 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use clap::parser::ValueSource;
-use clap::{ArgMatches, CommandFactory, FromArgMatches};
+use clap::{ArgMatches, CommandFactory, FromArgMatches, ValueEnum};
 
 use crate::args::Cli;
+use crate::choices::PresetChoice;
 use crate::exit::Exit;
 use crate::failure::Failure;
 
@@ -55,9 +56,10 @@ pub(crate) fn parse(mut arguments: Vec<OsString>, environment: &Environment) -> 
     if let Some((name, map)) = matches.subcommand().filter(|(name, _)| MAPPING.contains(name)) {
         typed = typed_options(map);
         let left_out = if name == "sweep" { NOT_FOR_SWEEP } else { &[] };
-        let defaults = defaults(map, &typed, left_out, environment).map_err(ParseFailure::Config)?;
+        let mut defaults = defaults(map, &typed, left_out, environment).map_err(ParseFailure::Config)?;
+        apply_preset(map, &typed, left_out, &mut defaults);
         // The subcommand comes second: nothing may stand before it but the program.
-        arguments.splice(2..2, defaults);
+        arguments.splice(2..2, defaults.into_iter().map(|(_, argument)| argument));
     }
     let matches = Cli::command().try_get_matches_from(&arguments)?;
     Ok(Parsed { cli: Cli::from_arg_matches(&matches)?, typed })
@@ -74,6 +76,30 @@ fn typed_options(unwrap: &ArgMatches) -> Vec<String> {
         .collect()
 }
 
+/// What `--preset` stands for, as far as it is not said otherwise. Typed, it silences the file; in the file, whatever else
+/// the file says comes first.
+fn apply_preset(
+    map: &ArgMatches,
+    typed: &[String],
+    left_out: &[&str],
+    defaults: &mut Vec<(String, OsString)>,
+) {
+    let in_file = defaults.iter().find(|(key, _)| key == "preset");
+    let in_file = in_file.and_then(|(_, argument)| argument.to_str()?.strip_prefix("--preset="));
+    let typed_preset = map.get_one::<PresetChoice>("preset").copied();
+    let Some(choice) = typed_preset.or_else(|| PresetChoice::from_str(in_file?, false).ok()) else { return };
+    let settings = choice.arguments();
+    if typed_preset.is_some() {
+        defaults.retain(|(key, _)| !settings.iter().any(|(name, _)| name == key));
+    }
+    for (name, value) in settings {
+        let is_said = typed.iter().any(|key| key == name) || defaults.iter().any(|(key, _)| key == name);
+        if !is_said && !left_out.contains(&name) {
+            defaults.push((name.to_owned(), format!("--{name}={value}").into()));
+        }
+    }
+}
+
 /// The long names of the options of `unwrap`.
 fn known_options() -> Vec<String> {
     let command = Cli::command();
@@ -86,7 +112,7 @@ fn defaults(
     typed: &[String],
     left_out: &[&str],
     environment: &Environment,
-) -> Result<Vec<OsString>, Failure> {
+) -> Result<Vec<(String, OsString)>, Failure> {
     if unwrap.get_flag("no_config") {
         return Ok(Vec::new());
     }
@@ -113,7 +139,7 @@ fn defaults(
                 || RIVALS.iter().any(|pair| pair.contains(&name.as_str()) && pair.contains(&key.as_str()))
         };
         if !left_out.contains(&key.as_str()) && !typed.iter().any(silenced) {
-            arguments.extend(argument);
+            arguments.extend(argument.map(|argument| (key.clone(), argument)));
         }
     }
     Ok(arguments)
@@ -213,6 +239,20 @@ mod tests {
         let unwrap =
             with_file("remove-fraction = 0.1\njson = true", &["--remove-below=2", "--quiet"]).unwrap();
         assert_eq!((unwrap.map.remove_below, unwrap.json, unwrap.quiet), (Some(2.0), false, true));
+    }
+
+    /// A preset is a set of defaults: what is typed beside it wins, and what the file says gives way to a typed one.
+    #[test]
+    fn presets_set_what_nobody_else_sets() {
+        let shape = |text: &str, arguments: &[&str]| {
+            let unwrap = with_file(text, arguments).unwrap();
+            (unwrap.q, unwrap.map.shape)
+        };
+        assert_eq!(shape("", &["--preset", "arap-like"]), (0.95, 1.0));
+        assert_eq!(shape("", &["--preset=least-stretch", "--q=0.8"]), (0.8, 10.0));
+        assert_eq!(shape("q = 0.25", &["--preset=least-stretch"]), (0.5, 10.0));
+        assert_eq!(shape("preset = 'least-stretch'\nq = 0.25", &[]), (0.25, 10.0));
+        assert_eq!(shape("preset = 'least-stretch'\nshape = 3", &["--preset=even-texels"]), (0.5, 0.5));
     }
 
     #[test]

@@ -217,6 +217,14 @@ fn direct_lines(direct: &DirectReport) -> Vec<String> {
         descent.energy, descent.energy_before
     )];
     lines.extend(direct.boundary_repair.as_ref().map(repair_line));
+    if let Some(limit) = direct.elliptic_limit
+        && direct.corners_beyond_elliptic > 0
+    {
+        lines.push(format!(
+            "{} stretched beyond s1/s2 = {limit}, up to which the energy is sure to stay smooth on fine meshes; more --shape or less --q widens the range",
+            counted(direct.corners_beyond_elliptic, "corner")
+        ));
+    }
     if !direct.exempt_faces.is_empty() {
         let shown: Vec<String> =
             direct.exempt_faces.iter().take(8).map(|face| (face.0 + 1).to_string()).collect();

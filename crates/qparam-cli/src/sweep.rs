@@ -2,12 +2,12 @@
 //!
 //! ```
 //! use qparam_cli::qmesh::shapes;
-//! use qparam_cli::qoptimize::Options;
+//! use qparam_cli::qoptimize::{Method, Options};
 //! use qparam_cli::qsimplify::{RemovalRule, SimplifyOptions};
 //! use qparam_cli::sweep::{Trend, sweep};
 //!
 //! let simplify = SimplifyOptions { rule: RemovalRule::All, ..SimplifyOptions::default() };
-//! let options = Options { simplify, ..Options::default() };
+//! let options = Options { method: Method::Paper, simplify, ..Options::default() };
 //! let result = sweep(&shapes::bump(8, 0.5), &options, &[1.0, 0.5, 0.0], &())?;
 //! assert_eq!(result.columns.len(), 3);
 //! assert_eq!(result.features.angle.trend, Trend::Falls);

@@ -11,7 +11,7 @@ use qoptimize::{DirectOptions, Options, OverlapOptions};
 
 use crate::choices::{
     AngleChoice, AreaChoice, BackendChoice, BoundaryChoice, MeasureChoice, MethodChoice, MixingChoice,
-    OrderChoice, RuleChoice, SideChoice, WeightsChoice,
+    OrderChoice, PresetChoice, RuleChoice, SideChoice, WeightsChoice,
 };
 use crate::exit::{self, Exit};
 use crate::failure::Failure;
@@ -58,8 +58,11 @@ pub(crate) struct MapArgs {
     #[arg(long, help_heading = "Files")]
     pub(crate) no_config: bool,
 
+    /// Method, q, shape and angle term for a purpose; each of them can still be given by itself
+    #[arg(long, value_enum, help_heading = "Method")]
+    pub(crate) preset: Option<PresetChoice>,
     /// Which way to a map
-    #[arg(long, value_enum, default_value = "paper", help_heading = "Method")]
+    #[arg(long, value_enum, default_value = "direct", help_heading = "Method")]
     pub(crate) method: MethodChoice,
     /// Where the boundary goes (not for direct, conformal and lscm, whose boundary is free)
     #[arg(long, value_enum, default_value = "circle", help_heading = "Method")]
@@ -306,9 +309,10 @@ fn thread_count(text: &str) -> Result<usize, String> {
 
 #[cfg(test)]
 mod tests {
-    use clap::Parser;
+    use clap::{Parser, ValueEnum};
+    use qoptimize::Preset;
 
-    use super::{Options, UnwrapArgs};
+    use super::{Options, PresetChoice, UnwrapArgs};
 
     #[derive(Parser)]
     struct Alone {
@@ -327,11 +331,22 @@ mod tests {
         assert_eq!(options(&[]), Options::default());
     }
 
+    /// What `--preset` expands to is what the library's preset is.
+    #[test]
+    fn presets_are_those_of_the_library() {
+        for choice in PresetChoice::value_variants() {
+            let typed = choice.arguments().map(|(name, value)| format!("--{name}={value}"));
+            let typed: Vec<&str> = typed.iter().map(String::as_str).collect();
+            assert_eq!(options(&typed), Preset::from(*choice).options(), "{choice:?}");
+        }
+    }
+
     /// Every option changes exactly the library option it names.
     #[test]
     fn every_choice_arrives() {
         let changes = [
             "--method=lscm",
+            "--method=paper",
             "--q=0.25",
             "--boundary=square",
             "--no-normalize",

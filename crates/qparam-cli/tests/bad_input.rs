@@ -114,7 +114,7 @@ fn degenerate_positions_are_survived() {
         ("huge", flat(|row, column| [1e59 * row as f64, 1e59 * column as f64, 0.0])),
     ];
     for (name, text) in cases {
-        for method in ["paper", "uniform", "mean-value", "harmonic", "lscm"] {
+        for method in ["direct", "conformal", "paper", "uniform", "mean-value", "harmonic", "lscm"] {
             let folder = Folder::new();
             folder.write("in.obj", &text);
             let run = folder.qparam(&["unwrap", "in.obj", "--method", method]);
@@ -152,7 +152,7 @@ fn failures_are_json_for_programs() {
 fn a_projected_edge_without_length_is_named() {
     let folder = Folder::new();
     folder.write("in.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 1 0\nf 1 2 3 4 5\n");
-    let run = folder.qparam(&["unwrap", "in.obj", "--boundary", "projection"]).code(5);
+    let run = folder.qparam(&["unwrap", "in.obj", "--method", "paper", "--boundary", "projection"]).code(5);
     assert!(
         run.stderr.contains("the boundary has no length at the edge between the vertices 4-5"),
         "{}",

@@ -22,7 +22,7 @@ fn the_output_is_the_input_with_uvs() {
 /// The report is about what the file holds: measuring the file gives the same figures, for every method.
 #[test]
 fn the_report_agrees_with_the_file() {
-    for method in ["paper", "uniform", "mean-value", "harmonic", "lscm"] {
+    for method in ["direct", "conformal", "paper", "uniform", "mean-value", "harmonic", "lscm"] {
         let folder = Folder::new();
         folder.write("in.obj", hill(8));
         let report = folder.qparam(&["unwrap", "in.obj", "--json", "--method", method]).code(0).json();
@@ -63,11 +63,14 @@ fn the_report_for_programs_has_every_part() {
 fn the_report_for_people() {
     let folder = Folder::new();
     folder.write("in.obj", hill(8));
-    let text = folder.qparam(&["unwrap", "in.obj"]).code(0).stdout;
+    let text = |method: &str| folder.qparam(&["unwrap", "in.obj", "--method", method]).code(0).stdout;
     let mut settings = insta::Settings::clone_current();
     settings.add_filter(r"(?m)^time .*$", "time …");
     settings.add_filter(r"relative residual \S+", "relative residual …");
-    settings.bind(|| insta::assert_snapshot!(text));
+    settings.bind(|| {
+        insta::assert_snapshot!(text("paper"));
+        insta::assert_snapshot!("the_report_for_people_direct", text("direct"));
+    });
 }
 
 #[test]
@@ -123,7 +126,8 @@ fn quiet_is_quiet() {
 fn the_simplified_mesh_can_be_looked_at() {
     let folder = Folder::new();
     folder.write("in.obj", hill(8));
-    let json = folder.qparam(&["unwrap", "in.obj", "--simplified", "simple.obj", "--json"]).code(0).json();
+    let paper = ["unwrap", "in.obj", "--method", "paper", "--simplified", "simple.obj", "--json"];
+    let json = folder.qparam(&paper).code(0).json();
     let removed = json["record"]["removed_vertices"].as_u64().unwrap();
     assert!(removed > 0);
     let simple = folder.qparam(&["info", "simple.obj", "--json"]).code(0).json();
@@ -144,7 +148,8 @@ fn a_fixed_boundary_is_kept() {
         .map(|v| format!("{} {} {}\n", v + 1, place(v)[0], place(v)[1]))
         .collect();
     folder.write("boundary.txt", format!("# vertex u v\n\n{list}"));
-    let arguments = ["unwrap", "in.obj", "--boundary", "fixed", "--quiet", "--boundary-uv"];
+    let arguments =
+        ["unwrap", "in.obj", "--method", "paper", "--boundary", "fixed", "--quiet", "--boundary-uv"];
     let with = |file: &str, out: &str| folder.qparam(&[&arguments[..], &[file, "-o", out]].concat()).code(0);
     with("boundary.txt", "a.obj");
     let output = folder.read("a.obj");
@@ -172,7 +177,8 @@ fn mistakes_in_boundary_files_are_named() {
         ("1 0 0\n", "list.txt: no position for vertex 2 (in.obj:5)"),
     ] {
         folder.write("list.txt", list);
-        let arguments = ["unwrap", "in.obj", "--boundary", "fixed", "--boundary-uv", "list.txt"];
+        let arguments =
+            ["unwrap", "in.obj", "--method=paper", "--boundary", "fixed", "--boundary-uv", "list.txt"];
         let run = folder.qparam(&arguments).code(3);
         assert!(run.stderr.contains(expected), "{}", run.stderr);
         assert!(!folder.path("in_uv.obj").exists());
@@ -187,7 +193,8 @@ fn what_remains_wrong_is_said() {
     folder.write("in.obj", hill(2));
     // A bow tie: the upper row runs backwards.
     folder.write("bow.txt", "1 0 0\n2 1 0\n3 2 0\n4 0.5 1\n6 1.5 1\n7 2 2\n8 1 2\n9 0 2\n");
-    let arguments = ["unwrap", "in.obj", "--boundary", "fixed", "--boundary-uv", "bow.txt"];
+    let arguments =
+        ["unwrap", "in.obj", "--method", "paper", "--boundary", "fixed", "--boundary-uv", "bow.txt"];
     let run = folder.qparam(&arguments).code(7);
     assert!(
         run.stderr.starts_with("warning: the UVs are written, but they are not valid: "),

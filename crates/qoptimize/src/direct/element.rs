@@ -43,7 +43,7 @@ impl Element {
 }
 
 /// The map's derivative in an orthonormal frame of the corner triangle at rest.
-fn jacobian(rest: &RestCorner, [f1x, f1y, f0x, f0y]: Edges) -> Columns {
+pub(super) fn jacobian(rest: &RestCorner, [f1x, f1y, f0x, f0y]: Edges) -> Columns {
     let [i11, i12, i22] = rest.inverse;
     [f1x * i11, f1y * i11, f1x * i12 + f0x * i22, f1y * i12 + f0y * i22]
 }

@@ -5,7 +5,9 @@ use crate::convexity::Exempt;
 use crate::qmesh::{Observer, QuadMesh, Vec2, VertexData};
 
 use super::clear::FreeProblem;
+use super::elliptic::corners_beyond;
 use super::rest::Rest;
+use super::scale::to_best_scale;
 use super::{DescentOptions, DirectReport, Objective, Start, StartError, find_start, minimize};
 
 /// A map of the planar patch `mesh` (a disk, perhaps with holes) with a free boundary that (locally) minimises `objective`, at the scale of the mesh.
@@ -23,10 +25,14 @@ pub fn embed(
     observer: &dyn Observer,
 ) -> Result<(VertexData<Vec2>, DirectReport), ParameterizeError> {
     let exempt = Exempt::find(mesh);
-    let start = start(mesh, &exempt, observer)?;
+    let mut start = start(mesh, &exempt, observer)?;
+    let rest = Rest::new(mesh, &exempt);
+    // The unit is a power of two, so neither division nor multiplication rounds.
+    start.uv.iter_mut().for_each(|p| *p /= rest.unit);
+    to_best_scale(&rest, &objective.clamped(), &mut start.uv);
+    start.uv.iter_mut().for_each(|p| *p *= rest.unit);
     let mut uv = start.uv.clone();
     let mut descent = minimize(mesh, &mut uv, &exempt, objective, options, observer)?;
-    let rest = Rest::new(mesh, &exempt);
     let problem = FreeProblem { mesh, rest: &rest, objective: &objective.clamped(), options, observer };
     let in_units = |uv: &VertexData<Vec2>| uv.iter().map(|p| p / rest.unit).collect::<Vec<_>>();
     let mut map = in_units(&uv);
@@ -34,12 +40,16 @@ pub fn embed(
     if boundary_repair.is_some() {
         uv = VertexData::from_vec(map.iter().map(|p| p * rest.unit).collect());
     }
+    let elliptic_limit = objective.elliptic_limit();
+    let corners_beyond_elliptic = elliptic_limit.map_or(0, |limit| corners_beyond(&rest, &uv, limit));
     let report = DirectReport {
         start: start.method,
         start_smallest_corner: start.smallest_corner,
         exempt_faces: exempt.faces(),
         descent,
         boundary_repair,
+        elliptic_limit,
+        corners_beyond_elliptic,
     };
     Ok((uv, report))
 }

@@ -19,6 +19,7 @@
 mod clear;
 mod constraint;
 mod element;
+mod elliptic;
 mod embed;
 mod energy;
 mod hessian;
@@ -27,6 +28,7 @@ mod newton;
 mod options;
 mod rest;
 mod scaffold;
+mod scale;
 mod start;
 mod step;
 mod untangle;

@@ -52,4 +52,8 @@ pub struct DirectReport {
     pub descent: Descent,
     /// What it took to keep the boundary clear of itself; `None` where it was so anyway.
     pub boundary_repair: Option<BoundaryRepair>,
+    /// Up to which stretch the energy is elliptic: [`Objective::elliptic_limit`](super::Objective::elliptic_limit).
+    pub elliptic_limit: Option<f64>,
+    /// Corners that are stretched beyond it.
+    pub corners_beyond_elliptic: usize,
 }

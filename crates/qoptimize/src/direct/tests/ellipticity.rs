@@ -7,6 +7,7 @@
 use super::super::element::{self, Edges};
 use super::super::rest::RestCorner;
 use super::super::{AngleTerm, Objective};
+use crate::{Method, Preset};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The energy of a unit square under the linear map with the columns `(a, c)` and `(b, d)`.
@@ -78,6 +79,27 @@ fn log_angles_are_elliptic_as_far_as_promised() {
         for rho in [1.0, 1.1, 1.3, 2.0, 3.0, 5.0, 10.0, 20.0].into_iter().filter(|&rho| rho <= reach) {
             let least = least_acoustic(&objective, rho);
             assert!(least > 0.0, "q = {q}, shape = {shape}, s1/s2 = {rho}: {least}");
+        }
+    }
+}
+
+/// Every preset, and every dial on the way, keeps what [`Objective::elliptic_limit`] promises.
+#[test]
+fn presets_are_elliptic_as_far_as_promised() {
+    let presets = Preset::ALL.map(|preset| {
+        let (q, shape, angle_term) = (preset.q(), preset.shape(), preset.angle_term());
+        match preset.method() {
+            Method::Conformal => Objective::Conformal { q },
+            _ => Objective::Direct { q, shape, angle_term },
+        }
+    });
+    let dials = [(1.0, 0.6), (0.8, 0.5), (1.0, 0.3), (0.5, 0.05), (0.2, 0.1), (0.0, 0.1)];
+    let between = dials.map(|(q, shape)| Objective::Direct { q, shape, angle_term: AngleTerm::Log });
+    for objective in presets.into_iter().chain(between) {
+        let limit = objective.elliptic_limit().unwrap_or(50.0);
+        for rho in [1.0, 1.1, 1.3, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0].into_iter().filter(|&rho| rho <= limit) {
+            let least = least_acoustic(&objective, rho);
+            assert!(least > -1e-3, "{objective:?}, s1/s2 = {rho}: {least}");
         }
     }
 }

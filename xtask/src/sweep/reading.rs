@@ -103,7 +103,7 @@ pub(super) fn contenders() -> Vec<Contender> {
 /// Minimised so far that the digits of the tables are those of the minimum.
 fn tight(method: Method) -> Options {
     let mut options = Options { method, ..Options::default() };
-    options.direct.descent = DescentOptions { max_steps: 2000, relative_decrease: 1e-11 };
+    options.direct.descent = DescentOptions { max_steps: 400, relative_decrease: 1e-9 };
     options
 }
 

@@ -17,6 +17,17 @@ const SHORTEST: f64 = 1e-3;
 /// long. Its sagitta, a tenth of a millionth of a millionth, still stands out from the rounding of the coordinates.
 const SMALLEST_STEP: f64 = 1e-5;
 
+/// Where the vertices of the outer boundary go, counter-clockwise along it.
+///
+/// # Errors
+/// The mesh is no planar patch, or its boundary does not fit the shape; `Free` is no shape.
+pub fn place_boundary(mesh: &QuadMesh, shape: &BoundaryShape) -> Result<Vec<(VertexId, Vec2)>, EmbedError> {
+    crate::check_patch(mesh)?;
+    let rim = crate::disk::rim(mesh);
+    let positions = place(mesh, &rim, shape)?;
+    Ok(rim.into_iter().zip(positions).collect())
+}
+
 /// One position for each vertex of the rim, which is given counter-clockwise.
 pub(crate) fn place(
     mesh: &QuadMesh,
@@ -24,7 +35,8 @@ pub(crate) fn place(
     shape: &BoundaryShape,
 ) -> Result<Vec<Vec2>, EmbedError> {
     match shape {
-        BoundaryShape::Circle => circle(mesh, rim),
+        BoundaryShape::Auto | BoundaryShape::Circle => circle(mesh, rim),
+        BoundaryShape::Free => Err(EmbedError::NoFreeBoundary),
         BoundaryShape::Square => square::square(mesh, rim),
         BoundaryShape::Projection => projection::project(mesh, rim),
         BoundaryShape::Fixed(positions) => fixed(mesh, rim, positions),

@@ -59,6 +59,9 @@ pub enum EmbedError {
         /// The vertex.
         vertex: VertexId,
     },
+    /// A free boundary was asked of a method that needs positions for it.
+    #[error("this method needs positions for the boundary: it cannot be free")]
+    NoFreeBoundary,
     /// A boundary vertex has no fixed position.
     #[error("no position was given for boundary vertex {vertex}: all {count} boundary vertices need one")]
     FixedMissing {

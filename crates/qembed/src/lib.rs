@@ -53,6 +53,7 @@ mod dirichlet;
 mod error;
 mod frame;
 
+pub use boundary::place_boundary;
 pub use classic::{Classic, embed_classic};
 pub use disk::check_patch;
 pub use embed::embed;

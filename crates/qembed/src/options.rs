@@ -11,9 +11,13 @@ use qsolve::SolveOptions;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum BoundaryShape {
+    /// What suits the method: free where the method moves the boundary itself, the circle elsewhere.
+    #[default]
+    Auto,
+    /// Wherever the method moves it. Only for methods that do: direct, conformal, and least squares conformal maps.
+    Free,
     /// The unit circle around the origin, by arc length. Edges shorter than a thousandth of the mean count as that
     /// long, so that the polygon stays strictly convex.
-    #[default]
     Circle,
     /// The unit square `[0, 1]²`, each side by arc length. Boundary vertices with a single face become corners;
     /// missing corners are put where the boundary is sharpest, in the middle third of the longest stretch.
@@ -67,7 +71,7 @@ pub struct EmbedOptions {
     /// `q` of Eq. 10: 1 conformal, 0 authalic, as Eq. 10 and Table 1 have it; the captions of Fig. 3 have the two
     /// swapped. Default 0.5. Acts on removed vertices only.
     pub q: f64,
-    /// Default `Circle`.
+    /// Default `Auto`, which is the circle.
     pub boundary: BoundaryShape,
     /// `r` of Eq. 5, at least 0. Default 1.
     pub exponent: f64,
@@ -83,7 +87,7 @@ impl Default for EmbedOptions {
     fn default() -> Self {
         Self {
             q: 0.5,
-            boundary: BoundaryShape::Circle,
+            boundary: BoundaryShape::Auto,
             exponent: 1.0,
             weights: Weights::Star4,
             mixing: Mixing::RowNormalized,

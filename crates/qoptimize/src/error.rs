@@ -1,6 +1,6 @@
 //! Why there is no map.
 
-use qembed::qmesh::VertexId;
+use qembed::qmesh::{CornerId, VertexId};
 use qembed::{EmbedError, qsimplify::SimplifyError};
 
 use crate::direct::{DescentError, StartError};
@@ -44,6 +44,58 @@ pub enum ParameterizeError {
     /// A tolerance of the descent is negative or not a number.
     #[error("the relative decrease at which the descent stops is {0}, but must be a number of at least 0")]
     BadTolerance(f64),
+    /// Something was asked of a method that cannot heed it.
+    #[error("{0} are for the methods direct and conformal only")]
+    OtherMethod(&'static str),
+    /// Two edges of a boundary that is to be held meet.
+    #[error("the boundary meets itself at the edges {} - {} and {} - {}", edges[0][0], edges[0][1], edges[1][0], edges[1][1])]
+    BoundaryMeets {
+        /// The edges.
+        edges: [[VertexId; 2]; 2],
+    },
+    /// A boundary that is to be held encloses its area clockwise, or none.
+    #[error("the boundary runs clockwise or encloses no area, but has to run counter-clockwise")]
+    BoundaryClockwise,
+    /// A face corner between three vertices of a held boundary does not turn left there.
+    #[error(
+        "{corner} lies between three vertices of the boundary, which do not turn left where they are held"
+    )]
+    FlatCorner {
+        /// The corner.
+        corner: CornerId,
+    },
+    /// A pin names no vertex, or its place is not finite.
+    #[error("the pin of {vertex} is no place for a vertex of the mesh")]
+    BadPin {
+        /// The vertex.
+        vertex: VertexId,
+    },
+    /// Two pins for one vertex.
+    #[error("{vertex} is pinned twice")]
+    PinTwice {
+        /// The vertex.
+        vertex: VertexId,
+    },
+    /// Two vertices are pinned to the same place.
+    #[error("{} and {} are pinned to the same place", vertices[0], vertices[1])]
+    PinsMeet {
+        /// The vertices.
+        vertices: [VertexId; 2],
+    },
+    /// A pin on a boundary that is held elsewhere.
+    #[error("{vertex} is pinned, but lies on the boundary, which is held already")]
+    PinOnHeldBoundary {
+        /// The vertex.
+        vertex: VertexId,
+    },
+    /// A pin cannot be brought to its place without a flip.
+    #[error("the pin of {vertex} stays {distance} short of its place: on the way there a corner would flip")]
+    PinOutOfReach {
+        /// The vertex.
+        vertex: VertexId,
+        /// How far it stays from its place.
+        distance: f64,
+    },
     /// No first map without flipped corners was found.
     #[error(transparent)]
     Start(StartError),

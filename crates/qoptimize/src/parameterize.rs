@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::ops::ControlFlow;
 
-use qembed::qmesh::{CornerData, Observer, QuadMesh, Vec2, VertexData};
+use qembed::qmesh::{CornerData, Observer, QuadMesh, Vec2, VertexData, VertexId};
 use qembed::qsimplify::{SimplifyOptions, simplify};
 use qembed::qsolve::SolveOptions;
 use qembed::{
@@ -11,7 +11,7 @@ use qembed::{
     embed, embed_classic,
 };
 
-use crate::direct::{self, DirectOptions, DirectReport, Objective};
+use crate::direct::{self, DirectOptions, DirectReport, Objective, Wishes};
 use crate::distortion::{Distortion, measure};
 use crate::error::ParameterizeError;
 use crate::overlap::{OverlapOptions, OverlapReport, remove_overlaps};
@@ -39,6 +39,20 @@ pub enum Method {
     Lscm,
 }
 
+impl Method {
+    /// Whether it minimises an energy by Newton steps: [`Direct`](Self::Direct) and [`Conformal`](Self::Conformal).
+    #[must_use]
+    pub fn minimizes(self) -> bool {
+        matches!(self, Self::Direct | Self::Conformal)
+    }
+
+    /// Whether the boundary is free when nothing else is asked for.
+    #[must_use]
+    pub fn has_free_boundary(self) -> bool {
+        self.minimizes() || self == Self::Lscm
+    }
+}
+
 /// Everything that can be chosen.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -48,8 +62,11 @@ pub struct Options {
     pub method: Method,
     /// 1 angle-true (conformal), 0 area-true (authalic). Default 0.5.
     pub q: f64,
-    /// Default `Circle`.
+    /// Default `Auto`: free for [`Method::Direct`], [`Method::Conformal`] and [`Method::Lscm`], the circle for the others.
     pub boundary: BoundaryShape,
+    /// Vertices with the places that they are to take exactly, for [`Method::Direct`] and [`Method::Conformal`]. One pin moves the
+    /// normalised map; with two or more there is no normalisation. Default none.
+    pub pins: Vec<(VertexId, Vec2)>,
     /// Section 2.1.
     pub simplify: SimplifyOptions,
     /// `r` of Eq. 5. Default 1.
@@ -65,7 +82,7 @@ pub struct Options {
     /// How linear systems are solved.
     pub solve: SolveOptions,
     /// Whether the UVs are moved and scaled so that their bounding box starts at 0 and its longer side is 1. Default true;
-    /// not done for `BoundaryShape::Fixed`.
+    /// not done for `BoundaryShape::Fixed` and with two or more pins.
     pub normalize: bool,
 }
 
@@ -75,6 +92,7 @@ impl Default for Options {
             method: Method::default(),
             q: 0.5,
             boundary: BoundaryShape::default(),
+            pins: Vec::new(),
             simplify: SimplifyOptions::default(),
             exponent: 1.0,
             weights: Weights::default(),
@@ -169,6 +187,9 @@ impl Options {
             return Err(EmbedError::BadExponent(self.exponent).into());
         }
         self.direct.check()?;
+        if !self.pins.is_empty() && !self.method.minimizes() {
+            return Err(ParameterizeError::OtherMethod("pins"));
+        }
         self.overlaps.as_ref().map_or(Ok(()), OverlapOptions::check)
     }
 }
@@ -232,7 +253,7 @@ fn paper(patch: &QuadMesh, options: &Options, observer: &dyn Observer) -> Result
     Ok((uv, record))
 }
 
-/// A start, and the descent from it. Its boundary is free, whatever `options.boundary` says.
+/// A start, and the descent from it.
 fn direct(mesh: &QuadMesh, options: &Options, observer: &dyn Observer) -> Result<Placed, ParameterizeError> {
     let objective = match options.method {
         Method::Conformal => Objective::Conformal { q: options.q },
@@ -242,8 +263,14 @@ fn direct(mesh: &QuadMesh, options: &Options, observer: &dyn Observer) -> Result
             angle_term: options.direct.angle_term,
         },
     };
-    let (mut uv, report) = direct::embed(mesh, &objective, &options.direct.descent, observer)?;
+    let wishes = Wishes { boundary: &options.boundary, pins: &options.pins };
+    let (mut uv, report) = direct::embed(mesh, &objective, &wishes, &options.direct.descent, observer)?;
     normalize(&mut uv, options);
+    if let [(vertex, place)] = options.pins[..] {
+        let shift = place - uv[vertex];
+        uv.iter_mut().for_each(|p| *p += shift);
+        uv[vertex] = place;
+    }
     let record = RunRecord {
         interior_vertices: interior_vertices(mesh),
         direct: Some(report),
@@ -286,8 +313,8 @@ fn interior_vertices(mesh: &QuadMesh) -> usize {
 /// Moves and scales the UVs so that their bounding box starts at 0 and its longer side is 1. Not to be done to UVs
 /// whose boundary the caller has placed. Done twice, it changes nothing the second time.
 fn normalize(uv: &mut VertexData<Vec2>, options: &Options) {
-    let is_free = matches!(options.method, Method::Lscm | Method::Direct | Method::Conformal);
-    let is_placed = !is_free && matches!(options.boundary, BoundaryShape::Fixed(_));
+    let is_held = options.method != Method::Lscm && matches!(options.boundary, BoundaryShape::Fixed(_));
+    let is_placed = is_held || options.pins.len() > 1;
     let low = uv.iter().copied().reduce(|a, b| a.inf(&b));
     let high = uv.iter().copied().reduce(|a, b| a.sup(&b));
     let Some((low, high)) = low.zip(high) else { return };

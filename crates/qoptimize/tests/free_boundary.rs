@@ -1,8 +1,8 @@
 //! Free boundaries: they never pass themselves, and what keeps them apart costs nothing where nothing is needed.
 
-use qoptimize::direct::{DescentOptions, Objective, embed, find_start, minimize};
+use qoptimize::direct::{DescentOptions, Objective, Wishes, embed};
 use qoptimize::qmesh::{QuadMesh, shapes};
-use qoptimize::{AngleTerm, Exempt, Method, Options, ScaffoldEnd, measure, parameterize};
+use qoptimize::{AngleTerm, Method, Options, ScaffoldEnd, measure, parameterize};
 
 fn overlapping() -> Vec<(&'static str, QuadMesh)> {
     vec![
@@ -17,7 +17,8 @@ fn overlapping() -> Vec<(&'static str, QuadMesh)> {
 #[test]
 fn boundaries_that_would_meet_are_kept_apart() {
     for (name, mesh) in overlapping() {
-        let (uv, report) = embed(&mesh, &Objective::default(), &DescentOptions::default(), &()).unwrap();
+        let (uv, report) =
+            embed(&mesh, &Objective::default(), &Wishes::default(), &DescentOptions::default(), &()).unwrap();
         let distortion = measure(mesh.view(), &mesh.to_corners(&uv)).unwrap();
         assert!(distortion.is_injective(), "{name}: {distortion:?}");
         let repair = report.boundary_repair.expect(name);
@@ -46,21 +47,6 @@ fn every_objective_is_kept_clear() {
     }
 }
 
-/// Where the free boundary is clear of itself anyway, nothing is touched: the map is that of the bare descent, bit for bit.
-#[test]
-fn clear_boundaries_are_left_alone() {
-    for mesh in [shapes::bump(8, 0.6), shapes::ramp(0.8, 30, 3), shapes::horseshoe(0.2, 0.3, 30, 4)] {
-        let (objective, options) = (Objective::default(), DescentOptions::default());
-        let exempt = Exempt::find(&mesh);
-        let mut bare = find_start(&mesh, &exempt, &()).unwrap().uv;
-        let descent = minimize(&mesh, &mut bare, &exempt, &objective, &options, &()).unwrap();
-        let (uv, report) = embed(&mesh, &objective, &options, &()).unwrap();
-        assert_eq!(report.boundary_repair, None);
-        assert_eq!(report.descent, descent);
-        assert!(uv.iter().zip(bare.iter()).all(|(a, b)| a == b));
-    }
-}
-
 /// Stopped at any of its reports, the work ends with a map that is valid and clear of itself.
 #[test]
 fn stopping_leaves_a_clear_map() {
@@ -74,7 +60,8 @@ fn stopping_leaves_a_clear_map() {
             _ => ControlFlow::Continue(()),
         };
         let (uv, report) =
-            embed(&mesh, &Objective::default(), &DescentOptions::default(), &observer).unwrap();
+            embed(&mesh, &Objective::default(), &Wishes::default(), &DescentOptions::default(), &observer)
+                .unwrap();
         let distortion = measure(mesh.view(), &mesh.to_corners(&uv)).unwrap();
         assert!(report.boundary_repair.is_some() || limit < 20, "{limit}");
         (distortion, calls.into_inner())

@@ -72,7 +72,7 @@ fn from_obj(name: &str, bytes: Vec<u8>, given: &mut [Option<Vec2>]) -> Result<()
     Ok(())
 }
 
-fn from_list(name: &str, bytes: &[u8], given: &mut [Option<Vec2>]) -> Result<(), Failure> {
+pub(crate) fn from_list(name: &str, bytes: &[u8], given: &mut [Option<Vec2>]) -> Result<(), Failure> {
     let text = String::from_utf8_lossy(bytes);
     for (index, line) in text.lines().enumerate() {
         let line = line.split('#').next().unwrap_or_default();

@@ -140,6 +140,10 @@ impl PresetChoice {
 /// Where the boundary goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum BoundaryChoice {
+    /// Free for direct, conformal and lscm, the circle for the others
+    Auto,
+    /// Wherever the energy is least, clear of itself (direct, conformal, lscm)
+    Free,
     /// The unit circle, by arc length
     Circle,
     /// The unit square

@@ -47,7 +47,8 @@ const MAPPING: [&str; 2] = ["unwrap", "sweep"];
 /// Options that mean something else, or nothing, to `sweep`.
 const NOT_FOR_SWEEP: &[&str] = &["q", "json", "quiet"];
 /// Options about one run, not about habits.
-const NOT_IN_FILES: &[&str] = &["output", "simplified", "config", "no-config", "help", "version"];
+const NOT_IN_FILES: &[&str] =
+    &["output", "simplified", "pin", "pins", "config", "no-config", "help", "version"];
 
 /// Parses the command line, with defaults from a configuration file.
 pub(crate) fn parse(mut arguments: Vec<OsString>, environment: &Environment) -> Result<Parsed, ParseFailure> {

@@ -53,6 +53,7 @@ mod threads;
 mod unwrap;
 
 mod pages;
+mod pins;
 mod progress;
 mod report;
 mod table;

@@ -1,12 +1,14 @@
 //! Refusals of the libraries in the numbers of the file: counted from 1, with lines.
 
 use qoptimize::ParameterizeError;
+use qoptimize::direct::StartError;
 use qoptimize::qembed::EmbedError;
 use qoptimize::qmesh::{BuildError, QuadMesh, VertexId};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::table::{counted, short};
 
 /// Why the polygons of `input` are no mesh.
 pub(crate) fn refused(error: &BuildError, input: &Input) -> Failure {
@@ -100,7 +102,56 @@ pub(crate) fn no_map(error: &ParameterizeError, mesh: &QuadMesh, input: &Input) 
     };
     let edge = |[a, b]: [VertexId; 2]| format!("{}-{}", number(a) + 1, number(b) + 1);
     let failure = Failure::new(Exit::Computation, format!("{}: no map was found", input.name));
-    let ParameterizeError::Embed(embed) = error else { return failure.cause(error) };
+    let embed = match error {
+        ParameterizeError::Embed(embed) => embed,
+        ParameterizeError::BoundaryMeets { edges: [first, second] } => {
+            return failure.note(format!(
+                "the boundary meets itself at the edges between the vertices {} and {}",
+                edge(*first),
+                edge(*second)
+            ));
+        }
+        ParameterizeError::FlatCorner { corner } => {
+            return failure
+                .note(format!(
+                    "face {} lies with three vertices on the boundary, which does not turn left at {}: it cannot be convex there",
+                    mesh.face(*corner).index() + 1,
+                    vertex(mesh.vertex(*corner))
+                ))
+                .help("use --boundary free or circle");
+        }
+        ParameterizeError::Start(StartError::Tangled { corner, count }) => {
+            return failure
+                .note(format!(
+                    "no start without flips was found: {} left, the worst in face {} at {}",
+                    counted(*count, "corner"),
+                    mesh.face(*corner).index() + 1,
+                    vertex(mesh.vertex(*corner))
+                ))
+                .help("a free or convex boundary leaves more room; cut limbs that are longer than floating point reaches");
+        }
+        ParameterizeError::PinOnHeldBoundary { vertex: v } => {
+            return failure
+                .note(format!("{} is pinned, but the boundary is held already", vertex(*v)))
+                .help("use --boundary free, or move the vertex in the file of --boundary-uv");
+        }
+        ParameterizeError::PinTwice { vertex: v } => {
+            return failure.note(format!("{} is pinned twice", vertex(*v)));
+        }
+        ParameterizeError::PinsMeet { vertices: [a, b] } => {
+            return failure.note(format!("{} and {} are pinned to the same place", vertex(*a), vertex(*b)));
+        }
+        ParameterizeError::PinOutOfReach { vertex: v, distance } => {
+            return failure
+                .note(format!(
+                    "the pin of {} stays {} short of its place: on the way a corner would flip, or the boundary pass itself",
+                    vertex(*v),
+                    short(*distance)
+                ))
+                .help("move the pin, or leave others out");
+        }
+        _ => return failure.cause(error),
+    };
     match embed {
         EmbedError::TooManyCorners { vertex: v, count } => failure
             .note(format!(

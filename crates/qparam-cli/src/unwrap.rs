@@ -8,11 +8,11 @@ use qoptimize::qembed::BoundaryShape;
 use qoptimize::qmesh::QuadMesh;
 use qoptimize::qmesh::obj::{UvWriteSummary, write_obj};
 use qoptimize::qsimplify::{SimplifyError, simplify};
-use qoptimize::{Options, Parameterization, parameterize};
+use qoptimize::{Method, Options, Parameterization, parameterize};
 
 use crate::args::{MapArgs, UnwrapArgs};
 use crate::boundary;
-use crate::choices::{MethodChoice, RuleChoice};
+use crate::choices::{BoundaryChoice, MethodChoice, RuleChoice};
 use crate::disk::require_disk;
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -20,6 +20,7 @@ use crate::input::Input;
 use crate::interrupt::Phase;
 use crate::json_text;
 use crate::output::Target;
+use crate::pins;
 use crate::progress::{StageTime, Watch};
 use crate::report::{
     Head, InputReport, Timings, UnwrapReport, is_valid, peak_memory_bytes, unwrap_text, verdict,
@@ -63,6 +64,7 @@ pub(crate) fn run(arguments: &UnwrapArgs, typed: &[String], io: &mut Streams<'_>
     {
         *positions = boundary::read(path, io.stdin, &mesh, &input)?;
     }
+    options.pins = pins::read(&arguments.pin, arguments.pins.as_deref(), io.stdin, &mesh, &input)?;
     let job = Job { arguments, options, input, mesh, target };
     let (result, stages) = timed(&mut timings.parameterize, || job.compute(io))?;
     timings.stages = stages;
@@ -125,10 +127,11 @@ fn refuse_clashes(
             "name another file with --simplified: what was removed cannot be brought back",
         );
     }
-    if dash(Some(&arguments.input)) && dash(arguments.map.boundary_uv.as_ref()) {
+    let inputs = [Some(&arguments.input), arguments.map.boundary_uv.as_ref(), arguments.pins.as_ref()];
+    if inputs.into_iter().filter(|&path| dash(path)).count() > 1 {
         return refuse(
             "standard input cannot be read twice",
-            "name a file for the mesh or for --boundary-uv",
+            "name a file for the mesh, for --boundary-uv and for --pins",
         );
     }
     if arguments.json && simplified == Some(&Target::Stdout) {
@@ -171,16 +174,14 @@ fn notes(arguments: &UnwrapArgs, typed: &[String]) -> Vec<String> {
         if method == MethodChoice::Conformal && ["shape", "angle-term"].contains(&name) {
             return Some("only direct reads it");
         }
-        if minimises && ["boundary", "boundary-uv"].contains(&name) {
-            return Some("the boundary is free");
-        }
         if minimises && ["backend", "residual-bound", "max-iterations"].contains(&name) {
             return Some("each Newton system is factorized");
         }
         if method != MethodChoice::Paper && PAPER_ONLY.contains(&name) {
             return Some("the method is not `paper`");
         }
-        if method == MethodChoice::Lscm && name == "boundary" {
+        let shape = !matches!(arguments.map.boundary, BoundaryChoice::Auto | BoundaryChoice::Free);
+        if method == MethodChoice::Lscm && name == "boundary" && shape {
             return Some("the boundary of lscm is free");
         }
         if method == MethodChoice::Paper && arguments.map.rule == RuleChoice::None {
@@ -270,18 +271,24 @@ pub(crate) fn method_line(map: &MapArgs, q: Option<f64>) -> String {
     }
     let at = |q: Option<f64>| q.map_or_else(String::new, |q| format!(", q {q}"));
     let method = name(&map.method);
+    let boundary = match map.boundary {
+        BoundaryChoice::Auto | BoundaryChoice::Free if Method::from(map.method).has_free_boundary() => {
+            "free boundary".to_owned()
+        }
+        BoundaryChoice::Auto => "boundary circle".to_owned(),
+        other => format!("boundary {}", name(&other)),
+    };
     match map.method {
         MethodChoice::Lscm => format!("method {method}, free boundary"),
-        MethodChoice::Direct => format!("method {method}{}, shape {}, free boundary", at(q), map.shape),
-        MethodChoice::Conformal => format!("method {method}{}, free boundary", at(q)),
+        MethodChoice::Direct => format!("method {method}{}, shape {}, {boundary}", at(q), map.shape),
         MethodChoice::Paper => format!(
-            "method {method}{}, rule {}, weights {}, boundary {}",
+            "method {method}{}, rule {}, weights {}, {boundary}",
             at(q),
             name(&map.rule),
-            name(&map.weights),
-            name(&map.boundary)
+            name(&map.weights)
         ),
-        _ => format!("method {method}, boundary {}", name(&map.boundary)),
+        MethodChoice::Conformal => format!("method {method}{}, {boundary}", at(q)),
+        _ => format!("method {method}, {boundary}"),
     }
 }
 

@@ -7,7 +7,7 @@ use qoptimize::direct::DescentOptions;
 use qoptimize::qembed::BoundaryShape;
 use qoptimize::qsimplify::{SimplifyOptions, Threshold};
 use qoptimize::qsolve::SolveOptions;
-use qoptimize::{DirectOptions, Options, OverlapOptions};
+use qoptimize::{DirectOptions, Method, Options, OverlapOptions};
 
 use crate::choices::{
     AngleChoice, AreaChoice, BackendChoice, BoundaryChoice, MeasureChoice, MethodChoice, MixingChoice,
@@ -15,6 +15,7 @@ use crate::choices::{
 };
 use crate::exit::{self, Exit};
 use crate::failure::Failure;
+use crate::pins::{self, PinArg};
 
 /// Compute UVs and write them into a copy of the file.
 #[derive(Args, Clone, Debug)]
@@ -38,6 +39,16 @@ pub(crate) struct UnwrapArgs {
     pub(crate) q: f64,
     #[command(flatten)]
     pub(crate) map: MapArgs,
+
+    /// Put this vertex (numbered from 1, as in the file) exactly there; once per vertex (direct, conformal)
+    ///
+    /// One pin moves the map; two also turn and scale it; more bend it, or are refused where that would need a flip. With two or more, the
+    /// UVs are not fitted to the unit square.
+    #[arg(long, value_name = "V=u,v", value_parser = pins::parse, allow_hyphen_values = true, help_heading = "Method")]
+    pub(crate) pin: Vec<PinArg>,
+    /// More pins: a file with lines `vertex u v`
+    #[arg(long, value_name = "FILE", help_heading = "Method")]
+    pub(crate) pins: Option<PathBuf>,
 
     /// Print the report as JSON
     #[arg(long, action = ArgAction::SetTrue, help_heading = "Report")]
@@ -64,8 +75,8 @@ pub(crate) struct MapArgs {
     /// Which way to a map
     #[arg(long, value_enum, default_value = "direct", help_heading = "Method")]
     pub(crate) method: MethodChoice,
-    /// Where the boundary goes (not for direct, conformal and lscm, whose boundary is free)
-    #[arg(long, value_enum, default_value = "circle", help_heading = "Method")]
+    /// Where the boundary goes; holes keep free rims
+    #[arg(long, value_enum, default_value = "auto", help_heading = "Method")]
     pub(crate) boundary: BoundaryChoice,
     /// Positions for --boundary fixed: an OBJ with UVs on the same vertices, or lines `vertex u v` (from 1)
     #[arg(long, value_name = "FILE", help_heading = "Method")]
@@ -196,6 +207,11 @@ impl UnwrapArgs {
     /// The library's options. A fixed boundary is still empty: its file has not been read.
     pub(crate) fn options(&self) -> Result<Options, Failure> {
         let options = self.map.options(self.q)?;
+        let has_pins = !self.pin.is_empty() || self.pins.is_some();
+        if has_pins && !options.method.minimizes() {
+            return Err(Failure::new(Exit::Usage, "--pin, --pins: this method cannot hold pins")
+                .help("use --method direct or conformal"));
+        }
         if self.map.method != MethodChoice::Paper && self.simplified.is_some() {
             return Err(Failure::new(Exit::Usage, "--simplified: only the method `paper` simplifies")
                 .help("leave --simplified out, or use --method paper"));
@@ -222,6 +238,8 @@ impl MapArgs {
             method: self.method.into(),
             q,
             boundary: match self.boundary {
+                BoundaryChoice::Auto => BoundaryShape::Auto,
+                BoundaryChoice::Free => BoundaryShape::Free,
                 BoundaryChoice::Circle => BoundaryShape::Circle,
                 BoundaryChoice::Square => BoundaryShape::Square,
                 BoundaryChoice::Projection => BoundaryShape::Projection,
@@ -251,6 +269,7 @@ impl MapArgs {
                     relative_decrease: self.relative_decrease,
                 },
             },
+            pins: Vec::new(),
             normalize: !self.no_normalize,
         })
     }
@@ -264,6 +283,12 @@ impl MapArgs {
             return refuse(
                 format!("--lambda1 {} and --lambda2 {} add up to {sum}", self.lambda1, self.lambda2),
                 "Eq. 11 needs 0 < λ1 + λ2 < 1, for example --lambda1 0.6 --lambda2 0.3",
+            );
+        }
+        if self.boundary == BoundaryChoice::Free && !Method::from(self.method).has_free_boundary() {
+            return refuse(
+                "--boundary free: this method needs positions for the boundary".into(),
+                "use --method direct, conformal or lscm, or leave --boundary out",
             );
         }
         match (self.boundary, &self.boundary_uv) {
@@ -349,6 +374,7 @@ mod tests {
             "--method=paper",
             "--q=0.25",
             "--boundary=square",
+            "--boundary=circle",
             "--no-normalize",
             "--rule=ring",
             "--remove-fraction=0.1",

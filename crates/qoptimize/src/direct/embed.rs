@@ -1,64 +1,217 @@
-//! From a mesh to a map: a start, the descent, and what it takes to keep the boundary clear of itself.
+//! From a mesh to a map: a start, the descent, and what it takes to heed the caller's wishes.
+
+use std::borrow::Cow;
 
 use crate::ParameterizeError;
 use crate::convexity::Exempt;
-use crate::qmesh::{Observer, QuadMesh, Vec2, VertexData};
+use crate::plane::outline_flaws;
+use crate::qembed::BoundaryShape;
+use crate::qmesh::{Observer, QuadMesh, Vec2, VertexData, VertexId};
 
 use super::clear::FreeProblem;
 use super::elliptic::corners_beyond;
-use super::rest::Rest;
+use super::held::HeldBoundary;
+use super::hessian::Hessian;
+use super::newton::descend;
+use super::pull::{self, Pin, Pull};
+use super::rest::{Rest, unit_length};
 use super::scale::to_best_scale;
-use super::{DescentOptions, DirectReport, Objective, Start, StartError, find_start, minimize};
+use super::start::find_start_on;
+use super::{Descent, DescentOptions, DirectReport, Objective, Start, StartError, find_start, minimize};
 
-/// A map of the planar patch `mesh` (a disk, perhaps with holes) with a free boundary that (locally) minimises `objective`, at the scale of the mesh.
+/// What a map has to heed besides its energy.
+#[derive(Clone, Copy, Debug)]
+pub struct Wishes<'a> {
+    /// `Auto` and `Free` leave the boundary free. Held boundaries are those around the patch; the rims of holes are free always.
+    pub boundary: &'a BoundaryShape,
+    /// Vertices with their places, which they take exactly.
+    pub pins: &'a [(VertexId, Vec2)],
+}
+
+impl Default for Wishes<'_> {
+    fn default() -> Self {
+        Self { boundary: &BoundaryShape::Auto, pins: &[] }
+    }
+}
+
+/// A map of the planar patch `mesh` (a disk, perhaps with holes) that (locally) minimises `objective`.
 ///
 /// Every corner turns left, but for those of [`DirectReport::exempt_faces`], and the boundary stays clear of itself: where that of
 /// the map of least energy does not, [`DirectReport::boundary_repair`] says what it cost. Cancelling during the descent ends it
 /// early with the map at hand.
 ///
+/// # Scale
+/// A free map has the scale of the mesh. On a held boundary the surface counts as scaled to the area that the boundary encloses, so
+/// that the energy compares shapes and not sizes. One pin only moves the map. Two or more also turn and scale it: by the
+/// similarity that brings the map nearest to them, at whose scale the energy is then measured. Two pins therefore bend nothing.
+///
 /// # Errors
-/// No start was found, a linear system could not be solved, or cancelled before there was a valid map.
+/// No start was found, a wish cannot be granted, a linear system could not be solved, or cancelled before there was a valid map.
 pub fn embed(
     mesh: &QuadMesh,
     objective: &Objective,
+    wishes: &Wishes<'_>,
     options: &DescentOptions,
     observer: &dyn Observer,
 ) -> Result<(VertexData<Vec2>, DirectReport), ParameterizeError> {
-    let exempt = Exempt::find(mesh);
-    let mut start = start(mesh, &exempt, observer)?;
-    let rest = Rest::new(mesh, &exempt);
-    // The unit is a power of two, so neither division nor multiplication rounds.
-    start.uv.iter_mut().for_each(|p| *p /= rest.unit);
-    to_best_scale(&rest, &objective.clamped(), &mut start.uv);
-    start.uv.iter_mut().for_each(|p| *p *= rest.unit);
-    let mut uv = start.uv.clone();
-    let mut descent = minimize(mesh, &mut uv, &exempt, objective, options, observer)?;
-    let problem = FreeProblem { mesh, rest: &rest, objective: &objective.clamped(), options, observer };
-    let in_units = |uv: &VertexData<Vec2>| uv.iter().map(|p| p / rest.unit).collect::<Vec<_>>();
-    let mut map = in_units(&uv);
-    let boundary_repair = problem.clear(&in_units(&start.uv), &mut map, &mut descent)?;
-    if boundary_repair.is_some() {
-        uv = VertexData::from_vec(map.iter().map(|p| p * rest.unit).collect());
-    }
-    let elliptic_limit = objective.elliptic_limit();
-    let corners_beyond_elliptic = elliptic_limit.map_or(0, |limit| corners_beyond(&rest, &uv, limit));
-    let report = DirectReport {
-        start: start.method,
-        start_smallest_corner: start.smallest_corner,
-        exempt_faces: exempt.faces(),
-        descent,
-        boundary_repair,
-        elliptic_limit,
-        corners_beyond_elliptic,
+    pull::check(mesh, wishes.pins)?;
+    let run = Run { mesh, exempt: Exempt::find(mesh), objective: &objective.clamped(), options, observer };
+    let (mut map, mut report) = match wishes.boundary {
+        BoundaryShape::Auto | BoundaryShape::Free => run.free(objective)?,
+        shape => run.held(shape)?,
     };
-    Ok((uv, report))
+    match wishes.pins {
+        [] => {}
+        [pin] if map.rest.constraint.held.is_empty() => {
+            let shift = pin.1 / map.rest.unit - map.uv[pin.0.index()];
+            map.uv.iter_mut().for_each(|p| *p += shift);
+            map.uv[pin.0.index()] = pin.1 / map.rest.unit;
+        }
+        pins => run.pin(&mut map, pins, &mut report)?,
+    }
+    report.elliptic_limit = objective.elliptic_limit();
+    report.corners_beyond_elliptic =
+        report.elliptic_limit.map_or(0, |limit| corners_beyond(&map.rest, &map.uv, limit));
+    let unit = map.rest.unit;
+    Ok((VertexData::from_vec(map.uv.iter().map(|p| p * unit).collect()), report))
 }
 
-/// A first map. Holes are filled for this time only.
-fn start(mesh: &QuadMesh, exempt: &Exempt, observer: &dyn Observer) -> Result<Start, StartError> {
-    let Some(filled) = mesh.filled() else { return find_start(mesh, exempt, observer) };
-    let start = find_start(&filled, &Exempt::find(&filled), observer)?;
-    let mut uv = start.uv.into_vec();
-    uv.truncate(mesh.vertex_count());
-    Ok(Start { uv: VertexData::from_vec(uv), ..start })
+/// A map in units of its problem.
+struct Map {
+    uv: Vec<Vec2>,
+    rest: Rest,
+}
+
+struct Run<'a> {
+    mesh: &'a QuadMesh,
+    exempt: Exempt,
+    /// Clamped.
+    objective: &'a Objective,
+    options: &'a DescentOptions,
+    observer: &'a dyn Observer,
+}
+
+impl Run<'_> {
+    fn free(&self, objective: &Objective) -> Result<(Map, DirectReport), ParameterizeError> {
+        let mut start = self.start()?;
+        let rest = Rest::new(self.mesh, &self.exempt);
+        // The unit is a power of two, so neither division nor multiplication rounds.
+        start.uv.iter_mut().for_each(|p| *p /= rest.unit);
+        to_best_scale(&rest, self.objective, &mut start.uv);
+        start.uv.iter_mut().for_each(|p| *p *= rest.unit);
+        let mut uv = start.uv.clone();
+        let descent = minimize(self.mesh, &mut uv, &self.exempt, objective, self.options, self.observer)?;
+        let in_units = |uv: &VertexData<Vec2>| uv.iter().map(|p| p / rest.unit).collect::<Vec<_>>();
+        let mut report = self.report(&start, descent);
+        let (first, mut uv) = (in_units(&start.uv), in_units(&uv));
+        report.boundary_repair = self.problem(&rest).clear(&first, &mut uv, &mut report.descent)?;
+        Ok((Map { uv, rest }, report))
+    }
+
+    /// A first map. Holes are filled for this time only.
+    fn start(&self) -> Result<Start, StartError> {
+        let Some(filled) = self.mesh.filled() else {
+            return find_start(self.mesh, &self.exempt, self.observer);
+        };
+        let start = find_start(&filled, &Exempt::find(&filled), self.observer)?;
+        Ok(self.without_filling(start))
+    }
+
+    fn without_filling(&self, start: Start) -> Start {
+        let mut uv = start.uv.into_vec();
+        uv.truncate(self.mesh.vertex_count());
+        Start { uv: VertexData::from_vec(uv), ..start }
+    }
+
+    fn held(&self, shape: &BoundaryShape) -> Result<(Map, DirectReport), ParameterizeError> {
+        let filled = self.mesh.filled().map_or(Cow::Borrowed(self.mesh), Cow::Owned);
+        let filled_exempt = Exempt::find(&filled);
+        let boundary = HeldBoundary::new(&filled, &filled_exempt, shape)?;
+        let start = find_start_on(&filled, &filled_exempt, &boundary.places, self.observer)?;
+        let start = self.without_filling(start);
+        let rest = boundary.rest(self.mesh, &self.exempt, &filled);
+        let first: Vec<Vec2> = start.uv.iter().map(|p| p / rest.unit).collect();
+        let mut uv = first.clone();
+        let mut report = self.report(&start, self.descend(&rest, &mut uv)?);
+        report.boundary_repair = self.problem(&rest).clear(&first, &mut uv, &mut report.descent)?;
+        Ok((Map { uv, rest }, report))
+    }
+
+    /// Draws the pins of a valid map to their places.
+    fn pin(&self, map: &mut Map, pins: &[Pin], report: &mut DirectReport) -> Result<(), ParameterizeError> {
+        let held = &mut map.rest.constraint.held;
+        if held.is_empty() {
+            held.resize(map.uv.len(), false);
+            fit(map, pins);
+        } else if let Some(&(vertex, _)) = pins.iter().find(|pin| held[pin.0.index()]) {
+            return Err(ParameterizeError::PinOnHeldBoundary { vertex });
+        }
+        for (vertex, _) in pins {
+            map.rest.constraint.held[vertex.index()] = true;
+        }
+        let pins: Vec<Pin> = pins.iter().map(|&(vertex, place)| (vertex, place / map.rest.unit)).collect();
+        let pull = Pull {
+            mesh: self.mesh,
+            rest: &map.rest,
+            pins: &pins,
+            objective: self.objective,
+            options: self.options,
+            observer: self.observer,
+            scaffolded: false,
+        };
+        let mut uv = map.uv.clone();
+        pull.run(&mut uv)?;
+        let first = report.descent.energy_before;
+        let earlier = report.descent.steps;
+        report.descent = self.descend(&map.rest, &mut uv)?;
+        if outline_flaws(self.mesh, &uv) > 0 && outline_flaws(self.mesh, &map.uv) == 0 {
+            let mut kept_apart = map.uv.clone();
+            Pull { scaffolded: true, ..pull }.run(&mut kept_apart)?;
+            report.boundary_repair =
+                self.problem(&map.rest).clear(&kept_apart, &mut uv, &mut report.descent)?;
+        }
+        report.descent.energy_before = first;
+        report.descent.steps += earlier;
+        map.uv = uv;
+        Ok(())
+    }
+
+    fn descend(&self, rest: &Rest, uv: &mut [Vec2]) -> Result<Descent, ParameterizeError> {
+        let mut hessian = Hessian::new(rest).map_err(super::DescentError::from)?;
+        Ok(descend(rest, &mut hessian, uv, self.objective, self.options, self.observer)?)
+    }
+
+    fn problem<'a>(&'a self, rest: &'a Rest) -> FreeProblem<'a> {
+        FreeProblem {
+            mesh: self.mesh,
+            rest,
+            objective: self.objective,
+            options: self.options,
+            observer: self.observer,
+        }
+    }
+
+    fn report(&self, start: &Start, descent: Descent) -> DirectReport {
+        DirectReport {
+            start: start.method,
+            start_smallest_corner: start.smallest_corner,
+            exempt_faces: self.exempt.faces(),
+            descent,
+            boundary_repair: None,
+            elliptic_limit: None,
+            corners_beyond_elliptic: 0,
+        }
+    }
+}
+
+/// Turns, moves and scales a free map to be as near to its pins as it gets, and its problem with it.
+fn fit(map: &mut Map, pins: &[Pin]) {
+    let unit = map.rest.unit;
+    let uv: Vec<Vec2> = map.uv.iter().map(|p| p * unit).collect();
+    let [a, b] = pull::similarity(&uv, pins);
+    let area =
+        a.norm_squared() * map.rest.corners.iter().map(|corner| corner.area).sum::<f64>() * unit * unit;
+    map.rest.unit = unit_length(0.5 * area);
+    map.rest.scale(a.norm() * unit / map.rest.unit);
+    map.uv = uv.iter().map(|&p| (pull::times(a, p) + b) / map.rest.unit).collect();
 }

@@ -67,6 +67,14 @@ impl Rest {
         rest
     }
 
+    /// The same surface in lengths `factor` times as long.
+    pub(super) fn scale(&mut self, factor: f64) {
+        for corner in &mut self.corners {
+            corner.area *= factor * factor;
+            corner.inverse = corner.inverse.map(|x| x / factor);
+        }
+    }
+
     /// Turns the factors of the corners, which stand in `share` so far, into weights.
     fn share_out(&mut self) {
         let count = self.corners.len() as f64;
@@ -80,7 +88,7 @@ impl Rest {
 }
 
 /// The power of two next to the square root of the area: scaling by it rounds nothing, so a valid map stays valid.
-fn unit_length(area: f64) -> f64 {
+pub(super) fn unit_length(area: f64) -> f64 {
     let exponent = (0.5 * area.log2()).round();
     if exponent.is_finite() { exponent.clamp(-1000.0, 1000.0).exp2() } else { 1.0 }
 }

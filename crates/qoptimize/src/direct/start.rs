@@ -56,8 +56,17 @@ pub struct Start {
 /// # Errors
 /// [`StartError::Tangled`] with the place, when none of the three ways leads to one.
 pub fn find_start(mesh: &QuadMesh, exempt: &Exempt, observer: &dyn Observer) -> Result<Start, StartError> {
+    find_start_on(mesh, exempt, &circle(mesh)?, observer)
+}
+
+/// The same with the boundary elsewhere. On a boundary that is not strictly convex, there need not be such a map.
+pub(super) fn find_start_on(
+    mesh: &QuadMesh,
+    exempt: &Exempt,
+    boundary: &[(qmesh::VertexId, Vec2)],
+    observer: &dyn Observer,
+) -> Result<Start, StartError> {
     let rest = Rest::new(mesh, exempt);
-    let circle = circle(mesh)?;
     let star = star_weights(mesh);
     let mut best: Option<Start> = None;
     let mut consider = |uv: VertexData<Vec2>, method: StartMethod| {
@@ -68,12 +77,12 @@ pub fn find_start(mesh: &QuadMesh, exempt: &Exempt, observer: &dyn Observer) -> 
         }
         best.as_ref().is_some_and(|best| best.smallest_corner > THIN)
     };
-    if consider(tutte(mesh, &circle, &star)?, StartMethod::Tutte) {
+    if consider(tutte(mesh, boundary, &star)?, StartMethod::Tutte) {
         return best.ok_or(StartError::Cancelled);
     }
     let torsion = Torsion::new(mesh)?;
     for exponent in EXPONENTS {
-        if let Ok(uv) = tutte(mesh, &circle, &torsion.weights(mesh, &star, exponent))
+        if let Ok(uv) = tutte(mesh, boundary, &torsion.weights(mesh, &star, exponent))
             && consider(uv, StartMethod::Torsion)
         {
             break;
@@ -83,7 +92,7 @@ pub fn find_start(mesh: &QuadMesh, exempt: &Exempt, observer: &dyn Observer) -> 
         return Ok(best);
     }
     let ones = mesh.edge_data(|_| 1.0);
-    let mut uv = tutte(mesh, &circle, &ones)?;
+    let mut uv = tutte(mesh, boundary, &ones)?;
     untangle(&rest, mesh, &mut uv, observer)?;
     let verdict = judge(&rest, &uv);
     match verdict.valid() {

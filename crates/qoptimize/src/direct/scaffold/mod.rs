@@ -68,15 +68,14 @@ pub(super) struct Scaffolded {
 impl Scaffold<'_> {
     /// Minimises from `uv`, which is valid and clear of itself, and stays so.
     pub(super) fn minimize(&self, uv: &mut Vec<Vec2>) -> Result<Scaffolded, DescentError> {
-        let edges = free_edges(self.mesh);
         let mut done = Scaffolded { rounds: 0, steps: 0, end: ScaffoldEnd::MaxRounds };
         let mut energy = energy::value(self.objective, self.rest, uv);
         let mut calm = 0;
         while done.rounds < MAX_ROUNDS.min(self.options.max_steps) {
-            let Some(around) = Surroundings::triangulate(&edges, uv, &[]) else {
+            let Some((joined, points)) = self.surround(uv, &[]) else {
                 return Ok(Scaffolded { end: ScaffoldEnd::Tight, ..done });
             };
-            let (points, steps, stop) = self.round(&around, uv, &edges, done.rounds)?;
+            let (points, steps, stop) = self.round(&joined, points, uv.len(), done.rounds)?;
             if outline_flaws(self.mesh, &points) > 0 {
                 return Ok(Scaffolded { end: ScaffoldEnd::Tight, ..done });
             }
@@ -95,23 +94,29 @@ impl Scaffold<'_> {
         Ok(done)
     }
 
-    /// A few steps with one triangulation: where the map ends, the steps made, and why they ended.
+    /// Map and surroundings as one problem, with its vertices: those of the map first. The frame encloses `reach`, too.
+    pub(super) fn surround(&self, uv: &[Vec2], reach: &[Vec2]) -> Option<(Rest, Vec<Vec2>)> {
+        let edges = free_edges(self.mesh);
+        let around = Surroundings::triangulate(&edges, uv, reach)?;
+        let clearance = CLEARANCE * mean_length(&edges, uv);
+        Some((join(self.rest, &around, uv, self.objective, clearance), [uv, &around.points].concat()))
+    }
+
+    /// A few steps with one triangulation: where the `count` vertices of the map end, the steps made, and why they ended.
     fn round(
         &self,
-        around: &Surroundings,
-        uv: &[Vec2],
-        edges: &[[u32; 2]],
+        joined: &Rest,
+        mut points: Vec<Vec2>,
+        count: usize,
         round: usize,
     ) -> Result<(Vec<Vec2>, usize, Stop), DescentError> {
-        let joined = join(self.rest, around, uv, self.objective, CLEARANCE * mean_length(edges, uv));
-        let mut points = [uv, &around.points].concat();
         let options = DescentOptions { max_steps: STEPS_PER_ROUND, ..*self.options };
         let observer = |_: &'static str, _: f64| -> ControlFlow<()> {
             self.observer.progress("scaffold", round as f64 / MAX_ROUNDS as f64)
         };
-        let descent =
-            descend(&joined, &mut Hessian::new(&joined)?, &mut points, self.objective, &options, &observer)?;
-        points.truncate(uv.len());
+        let mut hessian = Hessian::new(joined)?;
+        let descent = descend(joined, &mut hessian, &mut points, self.objective, &options, &observer)?;
+        points.truncate(count);
         Ok((points, descent.steps, descent.stop))
     }
 }

@@ -1,5 +1,6 @@
 //! What the energy promises.
 
+mod clear;
 mod derivatives;
 mod ellipticity;
 mod existence;

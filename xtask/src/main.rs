@@ -16,6 +16,11 @@ const TASKS: &[(&str, &str, Task)] = &[
         "league table of qparam and its rivals on the same meshes (fetches the rivals)",
         compare::run,
     ),
+    (
+        "disks",
+        "map hostile disks of all kinds, certify each map, check by brute force (--count N, --seed S), into docs/tables/disks.md",
+        disks::run,
+    ),
     ("figure", "draw docs/figures/head-face.svg anew; --check compares instead", figure::run),
     (
         "fixtures",
@@ -37,6 +42,7 @@ const TASKS: &[(&str, &str, Task)] = &[
 
 mod bench;
 mod compare;
+mod disks;
 mod figure;
 mod fixtures;
 mod links;

@@ -52,6 +52,8 @@ mod loops;
 mod nesting;
 mod violation;
 
+pub(crate) use faces::outline_sign;
+
 use std::collections::BTreeMap;
 use std::fmt;
 

@@ -3,6 +3,7 @@
 use qembed::qmesh::{CornerId, VertexId};
 use qembed::{EmbedError, qsimplify::SimplifyError};
 
+use crate::certificate::Certificate;
 use crate::direct::{DescentError, StartError};
 use crate::distortion::MeasureError;
 
@@ -108,6 +109,10 @@ pub enum ParameterizeError {
     /// The mesh is no disk, an option of the embedding is out of range, or embedding failed.
     #[error(transparent)]
     Embed(EmbedError),
+    /// The map is proven free of overlaps, but not after rounding to single precision, and could not be mended; the certificate of
+    /// the rounded map names the places.
+    #[error("in single precision the map would overlap itself: its certificate {0}")]
+    Rounding(Box<Certificate>),
     /// Measuring failed.
     #[error(transparent)]
     Measure(#[from] MeasureError),

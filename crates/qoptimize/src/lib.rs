@@ -10,13 +10,14 @@
 //! let mesh = shapes::cap(6, 1.2);
 //! let map = parameterize(&mesh, &Options { q: 1.0, ..Options::default() }, &())?;
 //! assert_eq!(map.uv.len(), mesh.corner_count());
-//! assert!(map.distortion.is_injective());
+//! assert!(map.certificate.holds);
 //! println!("angles {:.1}, areas {:.1}", map.distortion.angle_error, map.distortion.area_error);
 //! # Ok::<(), qoptimize::ParameterizeError>(())
 //! ```
 //!
 //! # Guarantees
-//! - A map comes with its measures; [`Distortion::is_injective`] is a proof on the map's exact coordinates.
+//! - A map comes with its measures and a verdict: a [`Certificate`] that holds is a proof, on the map's exact coordinates, that
+//!   nothing overlaps ([`certificate`]).
 //! - Same input, same bytes, for any number of threads; a caller's rayon pool is used.
 //! - No input panics; every measure is finite or `None`.
 //! - Scaling the mesh changes no normalised UV beyond rounding, except with raw mixing.
@@ -24,11 +25,10 @@
 //! # Limits
 //! - Only disks: one component, one boundary loop, no handles. Others are refused by name.
 //! - Overlap removal may leave overlaps, above all on boundaries that are not convex; the report counts them.
-//! - The proof covers one island with one boundary loop and convex faces. Maps beyond that are counted, not proven.
 //!
 //! # Modules, in reading order
 //! [`parameterize`](mod@parameterize) (the whole way) → [`overlap`] (Eqs. 11 and 12) → [`direct`] → [`distortion`] (Eqs. 13 and 14, and
-//! the field's measures).
+//! the field's measures) → [`certificate`] (the proof) → [`rounding`] (single precision).
 
 pub mod certificate;
 mod convexity;
@@ -39,6 +39,7 @@ pub mod overlap;
 pub mod parameterize;
 mod plane;
 mod preset;
+pub mod rounding;
 
 pub use certificate::{Certificate, Violation, ViolationKind, certify};
 pub use convexity::Exempt;
@@ -51,3 +52,4 @@ pub use overlap::{MoveOrder, OverlapOptions, OverlapReport, remove_overlaps};
 pub use parameterize::{Method, Options, Parameterization, RunRecord, parameterize};
 pub use preset::Preset;
 pub use qembed::{self, qcurv, qmesh, qsimplify, qsolve};
+pub use rounding::{Rounding, round_to_single};

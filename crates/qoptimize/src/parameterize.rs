@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::ops::ControlFlow;
 
+use qembed::qmesh::obj::UvPrecision;
 use qembed::qmesh::{CornerData, Observer, QuadMesh, Vec2, VertexData, VertexId};
 use qembed::qsimplify::{SimplifyOptions, simplify};
 use qembed::qsolve::SolveOptions;
@@ -11,10 +12,12 @@ use qembed::{
     embed, embed_classic,
 };
 
+use crate::certificate::{Certificate, certify};
 use crate::direct::{self, DirectOptions, DirectReport, Objective, Wishes};
 use crate::distortion::{Distortion, measure};
 use crate::error::ParameterizeError;
 use crate::overlap::{OverlapOptions, OverlapReport, remove_overlaps};
+use crate::rounding::{self, Rounding};
 
 /// Which way to a map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -84,6 +87,8 @@ pub struct Options {
     /// Whether the UVs are moved and scaled so that their bounding box starts at 0 and its longer side is 1. Default true;
     /// not done for `BoundaryShape::Fixed` and with two or more pins.
     pub normalize: bool,
+    /// What the UVs are rounded to in the end, before they are measured and certified. Default `Double`: nothing.
+    pub precision: UvPrecision,
 }
 
 impl Default for Options {
@@ -101,6 +106,7 @@ impl Default for Options {
             direct: DirectOptions::default(),
             solve: SolveOptions::default(),
             normalize: true,
+            precision: UvPrecision::default(),
         }
     }
 }
@@ -113,6 +119,8 @@ pub struct Parameterization {
     pub uv: CornerData<Vec2>,
     /// How good it is.
     pub distortion: Distortion,
+    /// Whether it is proven free of overlaps, and else where not; a hundred violations of each kind are listed.
+    pub certificate: Certificate,
     /// How it came about.
     pub record: RunRecord,
 }
@@ -138,6 +146,8 @@ pub struct RunRecord {
     pub overlaps: Option<OverlapReport>,
     /// Start and descent, when a method minimised an energy.
     pub direct: Option<DirectReport>,
+    /// What rounding to single precision did, when it was asked for.
+    pub rounding: Option<Rounding>,
 }
 
 /// The whole way: section 2 of the paper, or a classic baseline, with measures.
@@ -149,8 +159,7 @@ pub struct RunRecord {
 /// The observer hears of one stage after the other, each from 0 to 1: those of [`simplify`] and [`embed`] (or
 /// [`embed_classic`]), then `"overlaps"` with [`Method::Paper`], then `"measure"`.
 ///
-/// Overlaps may remain: [`Parameterization::distortion`] counts them, and [`Distortion::is_injective`] says whether the
-/// map is proven free of them.
+/// Overlaps may remain: [`Parameterization::certificate`] proves that there are none, or names them.
 ///
 /// # Errors
 /// What is wrong with the options or why the mesh is no disk; a linear system without an acceptable answer; cancelled
@@ -163,7 +172,7 @@ pub fn parameterize(
     options.check()?;
     check_patch(mesh)?;
     let unit_mesh = in_own_unit(mesh, options.mixing);
-    let (uv, record) = match options.method {
+    let (uv, mut record) = match options.method {
         Method::Paper => paper(&unit_mesh, options, observer)?,
         Method::Direct | Method::Conformal => direct(&unit_mesh, options, observer)?,
         Method::Uniform => classic(&unit_mesh, Classic::Uniform, options, observer)?,
@@ -171,11 +180,14 @@ pub fn parameterize(
         Method::Harmonic => classic(&unit_mesh, Classic::Harmonic, options, observer)?,
         Method::Lscm => classic(&unit_mesh, Classic::Lscm, options, observer)?,
     };
-    let uv = mesh.to_corners(&uv);
+    let mut uv = mesh.to_corners(&uv);
     watch(observer, 0.0)?;
+    record.rounding = rounding::to_precision(mesh.view(), &mut uv, options.precision)?;
     let distortion = measure(mesh.view(), &uv)?;
+    watch(observer, 0.5)?;
+    let certificate = certify(mesh.view(), &uv, rounding::LISTED)?;
     watch(observer, 1.0)?;
-    Ok(Parameterization { uv, distortion, record })
+    Ok(Parameterization { uv, distortion, certificate, record })
 }
 
 impl Options {
@@ -302,6 +314,7 @@ impl RunRecord {
             solves: embedding.solves.clone(),
             overlaps: None,
             direct: None,
+            rounding: None,
         }
     }
 }

@@ -32,6 +32,13 @@ pub(crate) enum Command {
     Sweep(SweepArgs),
     /// Measure the UVs that files already have, side by side
     Measure(MeasureArgs),
+    /// Prove that the UVs of files overlap nowhere, or name every place where they do
+    ///
+    /// Whoever made the UVs: several islands, holes and seams, triangles, quads and polygons. Everything is decided exactly, on the
+    /// coordinates as written in the file. A map is certified when every corner of a triangle or quad turns left, every other polygon
+    /// is simple, boundaries neither cross nor touch each other, and no island lies on another's material; mirrored islands are
+    /// not. Quads that no map can make convex, because they share their opposite vertices, are held to two corners.
+    Check(CheckArgs),
     /// Say what a mesh is: counts, topology, what is odd
     Info(InfoArgs),
     /// Draw a mesh in space with its UVs: checkerboard, heat maps, islands, materials (PNG)
@@ -84,9 +91,24 @@ pub(crate) struct MeasureArgs {
     /// Print JSON instead of a table
     #[arg(long)]
     pub(crate) json: bool,
-    /// Exit with 7 when a file has flipped corners, folded faces or crossing boundaries
+    /// Exit with 7 when the UVs of a file are not certified: flips, overlaps, contacts (`check` names the places)
     #[arg(long)]
     pub(crate) check: bool,
+}
+
+/// Prove that the UVs of files overlap nowhere.
+#[derive(Args, Debug)]
+#[command(after_help = exit::TABLE)]
+pub(crate) struct CheckArgs {
+    /// OBJ files with UVs; `-` is standard input
+    #[arg(required = true, value_name = "UVED.obj")]
+    pub(crate) files: Vec<PathBuf>,
+    /// Name at most this many violations of each kind; all are counted
+    #[arg(long, value_name = "N", default_value = "20", allow_negative_numbers = true)]
+    pub(crate) limit: usize,
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// Say what a mesh is: counts, topology, and what is odd about it. Works for meshes that `unwrap` refuses.

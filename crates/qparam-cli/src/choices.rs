@@ -3,6 +3,7 @@
 use clap::ValueEnum;
 use qoptimize::qcurv::VertexArea;
 use qoptimize::qembed::{Mixing, Weights};
+use qoptimize::qmesh::obj::UvPrecision;
 use qoptimize::qsimplify::{CurvatureMeasure, RemovalRule, RemovedSide};
 use qoptimize::qsolve::Backend;
 use qoptimize::{AngleTerm, Method, MoveOrder, Preset};
@@ -109,6 +110,14 @@ choices! {
         Log,
         /// (θ/φ − 1)², Eq. 13 itself: for coarse meshes
         Paper,
+    }
+    PrecisionChoice => UvPrecision {
+        /// Every digit of double precision
+        #[value(name = "f64")]
+        Double,
+        /// Rounded to single precision, as engines read them, mended where that turns faces over, and certified as rounded
+        #[value(name = "f32")]
+        Single,
     }
     BackendChoice => Backend {
         /// Direct for systems of moderate size, multigrid or iterative above

@@ -19,7 +19,7 @@ pub enum Exit {
     Computation = 5,
     /// The output could not be written.
     Output = 6,
-    /// UVs were written, but flips or overlaps remain.
+    /// UVs were written, but are not certified: flips or overlaps remain.
     Invalid = 7,
     /// Interrupted with ctrl-C.
     Interrupted = 130,
@@ -36,13 +36,13 @@ impl Exit {
 /// The table of exit codes in `--help`.
 pub(crate) const TABLE: &str = "\
 Exit codes:
-    0  done; for unwrap: the map is written and valid (no flips, no overlaps)
+    0  done; for unwrap: the map is written and certified (no flips, no overlaps)
     2  wrong usage: an option, or the configuration file
     3  the input could not be read or parsed
     4  the mesh is not supported (not manifold, not a disk); the message says what it is
     5  the computation failed
     6  the output could not be written
-    7  UVs were written, but flips or overlaps remain (with measure --check: were found)
+    7  UVs were written, but flips or overlaps remain (check, measure --check: were found)
   130  interrupted";
 
 #[cfg(test)]

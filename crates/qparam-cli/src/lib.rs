@@ -41,6 +41,7 @@ mod input;
 mod output;
 mod translate;
 
+mod check;
 mod info;
 mod layout_command;
 mod measure;
@@ -70,7 +71,7 @@ pub use qoptimize::{self, qcurv, qembed, qmesh, qsimplify, qsolve};
 pub use report::SCHEMA_VERSION;
 pub use streams::Streams;
 
-use args::{Command, InfoArgs, MeasureArgs, SweepArgs, UnwrapArgs};
+use args::{CheckArgs, Command, InfoArgs, MeasureArgs, SweepArgs, UnwrapArgs};
 use config::{ParseFailure, Parsed};
 
 /// Runs a command line; its first word is the program's name.
@@ -99,6 +100,10 @@ pub fn run(
             let MeasureArgs { json, .. } = arguments;
             (measure::run(&arguments, streams), json.then_some("measure"))
         }
+        Command::Check(arguments) => {
+            let CheckArgs { json, .. } = arguments;
+            (check::run(&arguments, streams), json.then_some("check"))
+        }
         Command::Info(arguments) => {
             let InfoArgs { json, .. } = arguments;
             (info::run(&arguments, streams), json.then_some("info"))
@@ -114,7 +119,8 @@ pub fn run(
 /// The command that was asked for a report as JSON, on a command line that may be wrong otherwise.
 fn wants_json(arguments: &[OsString]) -> Option<&'static str> {
     let name = arguments.get(1)?;
-    let command = ["unwrap", "sweep", "measure", "info"].into_iter().find(|command| name == command)?;
+    let command =
+        ["unwrap", "sweep", "measure", "check", "info"].into_iter().find(|command| name == command)?;
     let mut options = arguments.iter().take_while(|argument| *argument != "--");
     options.any(|argument| argument == "--json").then_some(command)
 }

@@ -1,6 +1,7 @@
 //! `qparam measure`: the measures of UVs that files already have.
 
-use qoptimize::{Distortion, measure};
+use qoptimize::qmesh::Vec2;
+use qoptimize::{Certificate, Distortion, certify, measure};
 use serde::Serialize;
 
 use crate::args::MeasureArgs;
@@ -8,7 +9,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::json_text;
-use crate::report::{Head, distortion_table, is_valid, verdict};
+use crate::report::{Head, LISTED, distortion_table};
 use crate::streams::Streams;
 
 #[derive(Serialize)]
@@ -22,6 +23,7 @@ struct Report {
 struct FileReport {
     file: String,
     valid: bool,
+    certificate: Certificate,
     distortion: Distortion,
 }
 
@@ -41,7 +43,7 @@ pub(crate) fn run(arguments: &MeasureArgs, io: &mut Streams<'_>) -> Result<Exit,
             short_names(&files).into_iter().zip(files.iter().map(|f| &f.distortion)).collect();
         let mut text = distortion_table(&columns).render(io.stdout_color) + "\n";
         for file in &files {
-            text += &format!("{}: {}\n", file.file, verdict(&file.distortion));
+            text += &format!("{}: certificate {}\n", file.file, file.certificate);
         }
         text
     };
@@ -50,11 +52,18 @@ pub(crate) fn run(arguments: &MeasureArgs, io: &mut Streams<'_>) -> Result<Exit,
 }
 
 fn measured(input: Input) -> Result<FileReport, Failure> {
-    let uv = input.document.corner_uv().ok_or_else(|| without_uv(&input))?;
-    let distortion = measure(input.document.view(), &uv).map_err(|error| {
+    let uv = uv_of(&input)?;
+    let unmeasured = |error| {
         Failure::new(Exit::Input, format!("{}: the UVs cannot be measured", input.name)).cause(&error)
-    })?;
-    Ok(FileReport { valid: is_valid(&distortion), file: input.name, distortion })
+    };
+    let distortion = measure(input.document.view(), &uv).map_err(unmeasured)?;
+    let certificate = certify(input.document.view(), &uv, LISTED).map_err(unmeasured)?;
+    Ok(FileReport { valid: certificate.holds, certificate, file: input.name, distortion })
+}
+
+/// The UV of every corner; refused when any lacks one.
+pub(crate) fn uv_of(input: &Input) -> Result<Vec<Vec2>, Failure> {
+    input.document.corner_uv().ok_or_else(|| without_uv(input))
 }
 
 /// Corners that name no `vt`, or else such that name one which is no place in the plane.

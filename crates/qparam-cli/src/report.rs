@@ -3,7 +3,9 @@
 use qoptimize::qmesh::QuadMesh;
 use qoptimize::qmesh::obj::UvWriteSummary;
 use qoptimize::qsolve::SolveMethod;
-use qoptimize::{BoundaryRepair, DirectReport, Distortion, RunRecord, ScaffoldEnd, StartMethod, Stop};
+use qoptimize::{
+    BoundaryRepair, Certificate, DirectReport, Distortion, RunRecord, ScaffoldEnd, StartMethod, Stop,
+};
 use serde::Serialize;
 
 use crate::input::Input;
@@ -11,7 +13,10 @@ use crate::progress::StageTime;
 use crate::table::{Table, counted, short};
 
 /// Changes when a field of the JSON reports is renamed, removed, or means something else.
-pub const SCHEMA_VERSION: u32 = 1;
+pub const SCHEMA_VERSION: u32 = 2;
+
+/// Violations of each kind that reports list.
+pub(crate) const LISTED: usize = 20;
 
 /// What every JSON report starts with.
 #[derive(Debug, Serialize)]
@@ -90,6 +95,7 @@ pub(crate) struct UnwrapReport<'a> {
     /// What became of the `vt` lines.
     pub(crate) uv_lines: UvWriteSummary,
     pub(crate) valid: bool,
+    pub(crate) certificate: Certificate,
     pub(crate) distortion: &'a Distortion,
     pub(crate) options: serde_json::Value,
     pub(crate) record: &'a RunRecord,
@@ -97,10 +103,7 @@ pub(crate) struct UnwrapReport<'a> {
     pub(crate) peak_memory_bytes: Option<u64>,
 }
 
-/// No flips and no overlaps: what exit code 0 of `unwrap` promises.
-///
-/// On one island without flips, a boundary that does not cross itself leaves no overlap anywhere. Whether
-/// several islands lie on each other is not seen here.
+/// No flips, and no island that overlaps itself, by the measures alone.
 pub(crate) fn is_valid(distortion: &Distortion) -> bool {
     distortion.flipped_corners == 0 && distortion.folded_faces == 0 && distortion.boundary_crossings == 0
 }
@@ -128,11 +131,12 @@ pub(crate) fn unwrap_text(report: &UnwrapReport<'_>, method: &str, color: bool) 
     }
     text += "\n";
     text += &distortion_table(&[(String::new(), report.distortion)]).render(color);
+    text += &format!("\ncertificate: {}\n", report.certificate);
     let times = &report.timings_seconds;
     let stages: Vec<_> =
         times.stages.iter().map(|time| format!("{} {:.2}", time.stage, time.seconds)).collect();
     text += &format!(
-        "\ntime {:.2} s: read {:.2}, build {:.2}, parameterize {:.2} ({}), write {:.2}",
+        "time {:.2} s: read {:.2}, build {:.2}, parameterize {:.2} ({}), write {:.2}",
         times.total,
         times.read,
         times.build,
@@ -193,6 +197,17 @@ fn record_lines(record: &RunRecord) -> Vec<String> {
     }
     if let Some(direct) = &record.direct {
         lines.extend(direct_lines(direct));
+    }
+    if let Some(rounding) = &record.rounding {
+        let mut line = "rounded to single precision".to_owned();
+        if rounding.broken_faces > 0 {
+            line += &format!(
+                ": {} turned over, {} moved to other floats to mend that",
+                counted(rounding.broken_faces, "face"),
+                counted(rounding.moved_points, "point")
+            );
+        }
+        lines.push(line);
     }
     lines
 }

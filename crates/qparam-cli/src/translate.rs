@@ -1,9 +1,11 @@
 //! Refusals of the libraries in the numbers of the file: counted from 1, with lines.
 
-use qoptimize::ParameterizeError;
+use std::collections::BTreeSet;
+
 use qoptimize::direct::StartError;
 use qoptimize::qembed::EmbedError;
 use qoptimize::qmesh::{BuildError, QuadMesh, VertexId};
+use qoptimize::{Certificate, ParameterizeError};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -150,6 +152,7 @@ pub(crate) fn no_map(error: &ParameterizeError, mesh: &QuadMesh, input: &Input) 
                 ))
                 .help("move the pin, or leave others out");
         }
+        ParameterizeError::Rounding(certificate) => return lost_in_rounding(certificate, failure, input),
         _ => return failure.cause(error),
     };
     match embed {
@@ -191,4 +194,26 @@ pub(crate) fn no_map(error: &ParameterizeError, mesh: &QuadMesh, input: &Input) 
             .help("try another --method or --backend; --residual-bound accepts less accurate solutions"),
         other => failure.cause(other),
     }
+}
+
+/// Which faces single precision cannot hold.
+fn lost_in_rounding(certificate: &Certificate, failure: Failure, input: &Input) -> Failure {
+    const SHOWN: usize = 8;
+    let faces: BTreeSet<usize> = certificate
+        .violations
+        .iter()
+        .flat_map(|violation| violation.places.iter().map(|place| place.face))
+        .collect();
+    let mut list: Vec<String> = faces
+        .iter()
+        .take(SHOWN)
+        .map(|&face| format!("{} (line {})", face + 1, input.document.face_line(face)))
+        .collect();
+    if faces.len() > SHOWN {
+        list.push("…".to_owned());
+    }
+    failure
+        .note(format!("in single precision the map would overlap itself: the certificate {certificate}"))
+        .note(format!("at the faces {}", list.join(", ")))
+        .help("use --uv-precision f64; or another method, which may give these faces more room")
 }

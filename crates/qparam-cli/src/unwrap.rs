@@ -1,14 +1,15 @@
 //! `qparam unwrap`: read, check, compute, write, report.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::ValueEnum;
 use qoptimize::qembed::BoundaryShape;
-use qoptimize::qmesh::QuadMesh;
 use qoptimize::qmesh::obj::{UvWriteSummary, write_obj};
+use qoptimize::qmesh::{QuadMesh, VertexId};
 use qoptimize::qsimplify::{SimplifyError, simplify};
-use qoptimize::{Method, Options, Parameterization, parameterize};
+use qoptimize::{Certificate, Method, Options, Parameterization, parameterize};
 
 use crate::args::{MapArgs, UnwrapArgs};
 use crate::boundary;
@@ -22,9 +23,7 @@ use crate::json_text;
 use crate::output::Target;
 use crate::pins;
 use crate::progress::{StageTime, Watch};
-use crate::report::{
-    Head, InputReport, Timings, UnwrapReport, is_valid, peak_memory_bytes, unwrap_text, verdict,
-};
+use crate::report::{Head, InputReport, LISTED, Timings, UnwrapReport, peak_memory_bytes, unwrap_text};
 use crate::streams::Streams;
 use crate::threads;
 use crate::translate::no_map;
@@ -229,13 +228,15 @@ impl Job<'_> {
         io: &mut Streams<'_>,
     ) -> Result<Exit, Failure> {
         let arguments = self.arguments;
-        let valid = is_valid(&result.distortion);
+        let certificate = in_file_numbers(&result.certificate, &self.mesh);
+        let valid = certificate.holds;
         let report = UnwrapReport {
             head: Head::new("unwrap"),
             input: InputReport::of(&self.mesh, &self.input),
             output: self.target.to_string(),
             uv_lines,
             valid,
+            certificate,
             distortion: &result.distortion,
             options: options_json(&self.options, arguments.map.boundary_uv.as_deref()),
             record: &result.record,
@@ -256,12 +257,29 @@ impl Job<'_> {
         }
         if !(arguments.json && aside) {
             io.say_err(&format!(
-                "warning: the UVs are written, but they are not valid: {}\n",
-                verdict(&result.distortion)
+                "warning: the UVs are written, but not certified: the certificate {}\n",
+                result.certificate
             ));
         }
         Ok(Exit::Invalid)
     }
+}
+
+/// The vertices of the places as the file numbers them, from 0, and no more places than reports list.
+fn in_file_numbers(certificate: &Certificate, mesh: &QuadMesh) -> Certificate {
+    let mut certificate = certificate.clone();
+    let mut listed = BTreeMap::new();
+    certificate.violations.retain_mut(|violation| {
+        for place in &mut violation.places {
+            let source = |vertex: u32| mesh.source_vertex(VertexId(vertex));
+            place.vertex = source(place.vertex);
+            place.to_vertex = place.to_vertex.map(source);
+        }
+        let count = listed.entry(violation.kind).or_insert(0);
+        *count += 1;
+        *count <= LISTED
+    });
+    certificate
 }
 
 /// What was asked for, in one line.

@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use clap::{ArgAction, Args};
 use qoptimize::direct::DescentOptions;
 use qoptimize::qembed::BoundaryShape;
+use qoptimize::qmesh::obj::UvPrecision;
 use qoptimize::qsimplify::{SimplifyOptions, Threshold};
 use qoptimize::qsolve::SolveOptions;
 use qoptimize::{DirectOptions, Method, Options, OverlapOptions};
 
 use crate::choices::{
     AngleChoice, AreaChoice, BackendChoice, BoundaryChoice, MeasureChoice, MethodChoice, MixingChoice,
-    OrderChoice, PresetChoice, RuleChoice, SideChoice, WeightsChoice,
+    OrderChoice, PrecisionChoice, PresetChoice, RuleChoice, SideChoice, WeightsChoice,
 };
 use crate::exit::{self, Exit};
 use crate::failure::Failure;
@@ -39,6 +40,9 @@ pub(crate) struct UnwrapArgs {
     pub(crate) q: f64,
     #[command(flatten)]
     pub(crate) map: MapArgs,
+    /// What the UVs are rounded to before they are certified and written
+    #[arg(long, value_enum, default_value = "f64", help_heading = "Files")]
+    pub(crate) uv_precision: PrecisionChoice,
 
     /// Put this vertex (numbered from 1, as in the file) exactly there; once per vertex (direct, conformal)
     ///
@@ -194,7 +198,7 @@ Configuration file:
   $XDG_CONFIG_HOME/qparam/config.toml (~/.config when that is not set). The command line wins.
 
 Exit codes:
-    0  the map is written and valid (no flips, no overlaps)
+    0  the map is written and certified (no flips, no overlaps)
     2  wrong usage: an option, or the configuration file
     3  the input could not be read or parsed
     4  the mesh is not supported (not manifold, not a disk); the message says what it is
@@ -206,7 +210,7 @@ Exit codes:
 impl UnwrapArgs {
     /// The library's options. A fixed boundary is still empty: its file has not been read.
     pub(crate) fn options(&self) -> Result<Options, Failure> {
-        let options = self.map.options(self.q)?;
+        let options = Options { precision: self.uv_precision.into(), ..self.map.options(self.q)? };
         let has_pins = !self.pin.is_empty() || self.pins.is_some();
         if has_pins && !options.method.minimizes() {
             return Err(Failure::new(Exit::Usage, "--pin, --pins: this method cannot hold pins")
@@ -271,6 +275,7 @@ impl MapArgs {
             },
             pins: Vec::new(),
             normalize: !self.no_normalize,
+            precision: UvPrecision::default(),
         })
     }
 
@@ -397,6 +402,7 @@ mod tests {
             "--backend=direct",
             "--residual-bound=1e-3",
             "--max-iterations=9",
+            "--uv-precision=f32",
         ];
         let results: Vec<_> = changes.iter().map(|change| options(&[change])).collect();
         for (i, result) in results.iter().enumerate() {

@@ -142,7 +142,7 @@ fn failures_are_json_for_programs() {
     let folder = Folder::new();
     folder.write("in.obj", CUBE);
     let json = folder.qparam(&["unwrap", "in.obj", "--json"]).code(4).json();
-    assert_eq!((&json["schema_version"], &json["exit_code"]), (&1.into(), &4.into()));
+    assert_eq!((&json["schema_version"], &json["exit_code"]), (&2.into(), &4.into()));
     assert_eq!(json["error"]["class"], "mesh");
     assert!(json["error"]["message"].as_str().unwrap().contains("closed"));
 }

@@ -47,7 +47,7 @@ fn the_report_for_programs_has_every_part() {
     let folder = Folder::new();
     folder.write("in.obj", hill(6));
     let json = folder.qparam(&["unwrap", "in.obj", "--json", "--q", "0.25"]).code(0).json();
-    assert_eq!((&json["schema_version"], &json["command"]), (&1.into(), &"unwrap".into()));
+    assert_eq!((&json["schema_version"], &json["command"]), (&2.into(), &"unwrap".into()));
     assert_eq!((&json["input"]["quads"], &json["input"]["boundary_edges"]), (&36.into(), &24.into()));
     assert_eq!((&json["options"]["q"], &json["output"]), (&0.25.into(), &"in_uv.obj".into()));
     assert_eq!(json["record"]["interior_vertices"], 25);
@@ -197,7 +197,7 @@ fn what_remains_wrong_is_said() {
         ["unwrap", "in.obj", "--method", "paper", "--boundary", "fixed", "--boundary-uv", "bow.txt"];
     let run = folder.qparam(&arguments).code(7);
     assert!(
-        run.stderr.starts_with("warning: the UVs are written, but they are not valid: "),
+        run.stderr.starts_with("warning: the UVs are written, but not certified: the certificate fails: "),
         "{}",
         run.stderr
     );

@@ -32,6 +32,9 @@ fn wrong_usage_is_explained() {
         &["unwrap", "in.obj", "--config", "missing.toml"],
         &["measure"],
         &["measure", "-", "-"],
+        &["check"],
+        &["check", "-", "-"],
+        &["check", "in.obj", "--limit", "-1"],
         &["man", "nonsense"],
         &["frobnicate"],
     ];
@@ -94,6 +97,7 @@ fn wrong_usage_is_json_for_programs() {
         (&["unwrap", "in.obj", "--json", "--config", "bad.toml"], "there is no such option"),
         (&["sweep", "in.obj", "--json", "--q", "-1"], "expected a number between 0 and 1"),
         (&["measure", "--json"], "required arguments"),
+        (&["check", "--json"], "required arguments"),
         (&["info", "in.obj", "more", "--json"], "unexpected argument 'more'"),
     ];
     for (line, expected) in lines {

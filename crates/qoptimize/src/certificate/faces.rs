@@ -129,7 +129,7 @@ fn shared_diagonals(map: &Map<'_>, bad: &[usize]) -> Vec<(usize, usize)> {
 
 /// 1 for a simple polygon that runs counter-clockwise, −1 for a simple one that runs clockwise, 0 for one that is not simple:
 /// edges that are no neighbours meet, neighbours fold back onto each other, or an edge has no length.
-pub(super) fn outline_sign(points: &[Vec2]) -> i32 {
+pub(crate) fn outline_sign(points: &[Vec2]) -> i32 {
     let n = points.len();
     let turn = |i: usize| orientation(points[(i + n - 1) % n], points[i], points[(i + 1) % n]);
     let first = turn(0);

@@ -277,11 +277,17 @@ fn direct(mesh: &QuadMesh, options: &Options, observer: &dyn Observer) -> Result
     };
     let wishes = Wishes { boundary: &options.boundary, pins: &options.pins };
     let (mut uv, report) = direct::embed(mesh, &objective, &wishes, &options.direct.descent, observer)?;
+    let exact = mesh.to_corners(&uv);
     normalize(&mut uv, options);
     if let [(vertex, place)] = options.pins[..] {
         let shift = place - uv[vertex];
         uv.iter_mut().for_each(|p| *p += shift);
         uv[vertex] = place;
+    }
+    // Corners that the descent has left thinner than a unit in the last place may turn over.
+    let mut corners = mesh.to_corners(&uv);
+    if rounding::mend(mesh.view(), &exact, &mut corners, UvPrecision::Double).moved_points > 0 {
+        mesh.corners().for_each(|corner| uv[mesh.vertex(corner)] = corners[corner]);
     }
     let record = RunRecord {
         interior_vertices: interior_vertices(mesh),

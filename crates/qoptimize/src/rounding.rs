@@ -1,8 +1,8 @@
-//! UVs in single precision, as most programs keep them, without losing what was proven in double precision.
+//! What rounding does to a map, and mending it: after a change of scale, and in single precision, as most programs keep UVs.
 //!
-//! Rounding moves each coordinate by up to half a unit in its last place, about 3·10⁻⁸ in the unit square: enough to turn over
-//! corners that are thinner. Those are mended by moving their points to neighbouring floats, chosen with exact predicates. What a few
-//! units do not mend stays, for the [certificate](crate::certificate) to name.
+//! Rounding moves each coordinate by up to half a unit in its last place, in single precision about 3·10⁻⁸ in the unit square: enough
+//! to turn over corners that are thinner. Those are mended by moving their points to neighbouring floats, chosen with exact
+//! predicates. What a few units do not mend stays, for the [certificate](crate::certificate) to name.
 
 use std::collections::BTreeSet;
 
@@ -42,13 +42,24 @@ pub fn round_to_single(polygons: PolygonView<'_>, corner_uv: &mut [Vec2]) -> Rou
     let single = UvFormat::with_precision(UvPrecision::Single);
     let exact = corner_uv.to_vec();
     corner_uv.iter_mut().for_each(|p| *p = single.round(*p));
+    mend(polygons, &exact, corner_uv, UvPrecision::Single)
+}
+
+/// Mends the faces that are positive with the UVs `exact`, but not with `rounded`, which are those, moved, scaled or rounded.
+/// Points go to neighbouring floats of the precision.
+pub(crate) fn mend(
+    polygons: PolygonView<'_>,
+    exact: &[Vec2],
+    rounded: &mut [Vec2],
+    precision: UvPrecision,
+) -> Rounding {
     let faces = || (0..polygons.face_count()).into_par_iter().with_min_len(1024);
-    let shapes: Vec<Shape> = faces().map(|face| Shape::of(polygons, &exact, face)).collect();
-    let rounded = &*corner_uv;
-    let broken: Vec<usize> = faces().filter(|&face| !shapes[face].is_kept(polygons, rounded, face)).collect();
+    let shapes: Vec<Shape> = faces().map(|face| Shape::of(polygons, exact, face)).collect();
+    let now = &*rounded;
+    let broken: Vec<usize> = faces().filter(|&face| !shapes[face].is_kept(polygons, now, face)).collect();
     let mut rounding = Rounding { broken_faces: broken.len(), ..Rounding::default() };
     if !broken.is_empty() {
-        let mut mender = Mender::new(polygons, &exact, corner_uv, &shapes);
+        let mut mender = Mender::new(polygons, exact, rounded, &shapes, precision);
         let left = mender.mend(broken.into_iter().collect());
         rounding.moved_points = mender.moved.len();
         rounding.lost_faces = left.into_iter().map(|face| face as u32).collect();
@@ -114,7 +125,9 @@ impl Shape {
 
 struct Mender<'a> {
     polygons: PolygonView<'a>,
-    exact: &'a [Vec2],
+    precision: UvPrecision,
+    /// Where the points were put first.
+    nearest: Vec<Vec2>,
     uv: &'a mut [Vec2],
     shapes: &'a [Shape],
     islands: Islands,
@@ -124,11 +137,18 @@ struct Mender<'a> {
 }
 
 impl<'a> Mender<'a> {
-    fn new(polygons: PolygonView<'a>, exact: &'a [Vec2], uv: &'a mut [Vec2], shapes: &'a [Shape]) -> Self {
+    fn new(
+        polygons: PolygonView<'a>,
+        exact: &'a [Vec2],
+        uv: &'a mut [Vec2],
+        shapes: &'a [Shape],
+        precision: UvPrecision,
+    ) -> Self {
         let islands = Islands::find(polygons, exact);
         let mut by_point: Vec<(u32, u32)> = islands.point.iter().copied().zip(0..).collect();
         by_point.sort_unstable();
-        Self { polygons, exact, uv, shapes, islands, by_point, moved: BTreeSet::new() }
+        let nearest = uv.to_vec();
+        Self { polygons, precision, nearest, uv, shapes, islands, by_point, moved: BTreeSet::new() }
     }
 
     /// Moves points of broken faces until none is left or nothing helps; returns the faces that are left.
@@ -154,7 +174,7 @@ impl<'a> Mender<'a> {
         !self.shapes[face].is_kept(self.polygons, self.uv, face)
     }
 
-    /// Puts a point where the fewest of its faces are broken, as near to its exact place as that allows.
+    /// Puts a point where the fewest of its faces are broken, as near to its first place as that allows.
     fn move_point(&mut self, point: u32, broken: &mut BTreeSet<usize>) {
         let start = self.by_point.partition_point(|entry| entry.0 < point);
         let corners: Vec<usize> = self.by_point[start..]
@@ -166,12 +186,13 @@ impl<'a> Mender<'a> {
             corners.iter().map(|&corner| self.islands.face_of[corner] as usize).collect();
         faces.sort_unstable();
         faces.dedup();
-        let (here, exact) = (self.uv[corners[0]], self.exact[corners[0]]);
+        let (here, nearest) = (self.uv[corners[0]], self.nearest[corners[0]]);
         let mut best = (self.put(&corners, &faces, here), here);
         let mut candidates: Vec<Vec2> = (-REACH..=REACH)
-            .flat_map(|i| (-REACH..=REACH).map(move |j| Vec2::new(step(here.x, i), step(here.y, j))))
+            .flat_map(|i| (-REACH..=REACH).map(move |j| (i, j)))
+            .map(|(i, j)| Vec2::new(self.step(here.x, i), self.step(here.y, j)))
             .collect();
-        candidates.sort_by(|a, b| (a - exact).norm_squared().total_cmp(&(b - exact).norm_squared()));
+        candidates.sort_by(|a, b| (a - nearest).norm_squared().total_cmp(&(b - nearest).norm_squared()));
         for candidate in candidates {
             let count = self.put(&corners, &faces, candidate);
             if count < best.0 {
@@ -199,15 +220,17 @@ impl<'a> Mender<'a> {
         corners.iter().for_each(|&corner| self.uv[corner] = place);
         faces.iter().filter(|&&face| self.is_broken(face)).count()
     }
-}
 
-/// The `f32` that is `by` floats away; zeros count as one.
-fn step(x: f64, by: i32) -> f64 {
-    let mut single = x as f32;
-    for _ in 0..by.abs() {
-        single = if by > 0 { single.next_up() } else { single.next_down() };
+    /// The float of the precision that is `by` floats away; zeros count as one.
+    fn step(&self, x: f64, by: i32) -> f64 {
+        let count = by.unsigned_abs() as usize;
+        if self.precision == UvPrecision::Single {
+            let next = if by > 0 { f32::next_up } else { f32::next_down };
+            return f64::from((0..count).fold(x as f32, |x, _| next(x))) + 0.0;
+        }
+        let next = if by > 0 { f64::next_up } else { f64::next_down };
+        (0..count).fold(x, |x, _| next(x)) + 0.0
     }
-    f64::from(single) + 0.0
 }
 
 #[cfg(test)]

@@ -271,9 +271,8 @@ fn in_file_numbers(certificate: &Certificate, mesh: &QuadMesh) -> Certificate {
     let mut listed = BTreeMap::new();
     certificate.violations.retain_mut(|violation| {
         for place in &mut violation.places {
-            let source = |vertex: u32| mesh.source_vertex(VertexId(vertex));
-            place.vertex = source(place.vertex);
-            place.to_vertex = place.to_vertex.map(source);
+            place.vertex = mesh.source_vertex(VertexId(place.vertex));
+            place.to_vertex = place.to_vertex.map(|vertex| mesh.source_vertex(VertexId(vertex)));
         }
         let count = listed.entry(violation.kind).or_insert(0);
         *count += 1;

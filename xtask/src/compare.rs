@@ -7,6 +7,7 @@
 mod agreement;
 mod cgal;
 mod contestant;
+mod dominance;
 mod league;
 pub(crate) mod machine;
 mod markdown;
@@ -50,6 +51,10 @@ struct Arguments {
     /// Install nothing; rivals that are not there are listed so
     #[arg(long)]
     no_install: bool,
+    /// Also look, for every valid rival in one island, for a setting of --q, --shape and --angle-term that is no worse in angle
+    /// error, area error and symmetric Dirichlet (112 maps a mesh)
+    #[arg(long)]
+    dominance: bool,
     /// Where the table goes; JSON goes beside it with the ending .json
     #[arg(long, value_name = "FILE.md", default_value = "target/compare/league.md")]
     output: PathBuf,
@@ -90,7 +95,11 @@ fn compare(arguments: &Arguments) -> Result<(), String> {
         Race { places: &places, interpreter: &interpreter, runs: arguments.runs, timeout: arguments.timeout };
     let mut tables = Vec::new();
     for (number, mesh) in meshes.iter().enumerate() {
-        tables.push(table(number, mesh, &contestants, &race, &ours)?);
+        let mut table = table(number, mesh, &contestants, &race, &ours)?;
+        if arguments.dominance {
+            table.dominance = dominance::against_all(mesh, &table.rows)?;
+        }
+        tables.push(table);
     }
     let mut versions = vec![ours.version.clone(), interpreter.version.clone()];
     versions.extend(interpreter.packages.iter().filter_map(|package| package.installed.clone().ok()));
@@ -130,7 +139,8 @@ fn table(
 ) -> Result<MeshTable, String> {
     let name = mesh.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let about = python::inspect(race.places, race.interpreter, mesh)?;
-    let mut table = MeshTable { name, about, rows: Vec::new(), disagreements: Vec::new() };
+    let mut table =
+        MeshTable { name, about, rows: Vec::new(), disagreements: Vec::new(), dominance: Vec::new() };
     if let Some(reason) = &table.about.not_a_disk {
         eprintln!("{}: refused, not a disk: {reason}", table.name);
         return Ok(table);

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::contestant::Absent;
+use super::dominance::Dominance;
 use super::machine::Machine;
 
 /// Changes when a field of the JSON is renamed, removed, or means something else.
@@ -31,6 +32,9 @@ pub(super) struct MeshTable {
     pub(super) rows: Vec<Row>,
     /// Where `qparam measure` and the independent script differ.
     pub(super) disagreements: Vec<String>,
+    /// Our best setting against each valid rival, when it was asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) dominance: Vec<Dominance>,
 }
 
 /// What a mesh is.

@@ -54,7 +54,13 @@ fn league(rows: Vec<Row>) -> League {
         runs: 3,
         timeout_seconds: 60.0,
         baseline: "qparam-paper".to_owned(),
-        meshes: vec![MeshTable { name: "m.obj".to_owned(), about, rows, disagreements: Vec::new() }],
+        meshes: vec![MeshTable {
+            name: "m.obj".to_owned(),
+            about,
+            rows,
+            disagreements: Vec::new(),
+            dominance: Vec::new(),
+        }],
         absent: vec![Absent { tool: "CGAL".to_owned(), why: "no headers\nsecond line".to_owned() }],
     }
 }

@@ -31,6 +31,7 @@
 mod angle;
 mod area;
 mod gaussian;
+pub mod seams;
 mod triangle;
 mod vertex_area;
 

@@ -24,6 +24,7 @@
 
 mod corner;
 mod error;
+mod labels;
 mod lines;
 mod output;
 mod parse;

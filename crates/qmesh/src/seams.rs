@@ -1,5 +1,9 @@
 //! Seams: edges along which a surface is to be opened, named by their two vertices.
 
+use rayon::prelude::*;
+
+use crate::polygons::PolygonView;
+
 /// A set of edges, each as its two vertices in the caller's numbers, lower first.
 ///
 /// ```
@@ -33,6 +37,25 @@ impl Seams {
     #[must_use]
     pub fn contains(&self, a: u32, b: u32) -> bool {
         self.pairs.binary_search(&[a.min(b), a.max(b)]).is_ok()
+    }
+
+    /// The edges whose faces differ: `differ` is asked for pairs of faces that share an edge, with the corners of each at the
+    /// edge's lower and at its higher vertex.
+    #[must_use]
+    pub fn between(polygons: PolygonView<'_>, differ: impl Fn([usize; 2], [usize; 2]) -> bool) -> Self {
+        let mut sides: Vec<([u32; 2], [usize; 2])> = Vec::with_capacity(polygons.corner_count());
+        for face in 0..polygons.face_count() {
+            let corners = polygons.corners(face);
+            for corner in corners.clone() {
+                let next = if corner + 1 == corners.end { corners.start } else { corner + 1 };
+                let [a, b] = [corner, next].map(|c| polygons.corner_vertex[c]);
+                sides.push(if a < b { ([a, b], [corner, next]) } else { ([b, a], [next, corner]) });
+            }
+        }
+        sides.par_sort_unstable();
+        let differs =
+            |group: &&[([u32; 2], [usize; 2])]| group.iter().skip(1).any(|side| differ(group[0].1, side.1));
+        sides.chunk_by(|a, b| a.0 == b.0).filter(differs).map(|group| group[0].0).collect()
     }
 
     /// The edges, sorted.

@@ -23,24 +23,28 @@
 //! - Scaling the mesh changes no normalised UV beyond rounding, except with raw mixing.
 //!
 //! # Limits
-//! - Only disks: one component, one boundary loop, no handles. Others are refused by name.
+//! - [`parameterize()`] maps planar patches: one component, no handles, a boundary, perhaps holes. Others are refused by name;
+//!   [`atlas::unwrap`] takes any polygons.
 //! - Overlap removal may leave overlaps, above all on boundaries that are not convex; the report counts them.
 //!
 //! # Modules, in reading order
 //! [`parameterize`](mod@parameterize) (the whole way) → [`overlap`] (Eqs. 11 and 12) → [`direct`] → [`distortion`] (Eqs. 13 and 14, and
-//! the field's measures) → [`certificate`] (the proof) → [`rounding`] (single precision).
+//! the field's measures) → [`certificate`] (the proof) → [`rounding`] (single precision) → [`atlas`] (any polygons) → [`pack`].
 
+pub mod atlas;
 pub mod certificate;
 mod convexity;
 pub mod direct;
 pub mod distortion;
 mod error;
 pub mod overlap;
+pub mod pack;
 pub mod parameterize;
 mod plane;
 mod preset;
 pub mod rounding;
 
+pub use atlas::{Atlas, AtlasError, AtlasOptions, Density, Island, UpAxis};
 pub use certificate::{Certificate, Violation, ViolationKind, certify};
 pub use convexity::Exempt;
 pub use direct::{

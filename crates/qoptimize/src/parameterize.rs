@@ -191,7 +191,7 @@ pub fn parameterize(
 }
 
 impl Options {
-    fn check(&self) -> Result<(), ParameterizeError> {
+    pub(crate) fn check(&self) -> Result<(), ParameterizeError> {
         if !(0.0..=1.0).contains(&self.q) {
             return Err(EmbedError::BadMix(self.q).into());
         }

@@ -10,7 +10,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{Input, name_of, read_bytes, unparsed};
 
-/// One position for each boundary vertex of `mesh`, in the order of the vertices.
+/// One position for each vertex of the outer boundary of `mesh`, in the order of the vertices.
 pub(crate) fn read(
     path: &Path,
     stdin: &mut dyn Read,
@@ -25,15 +25,20 @@ pub(crate) fn read(
     } else {
         from_list(&name, &bytes, &mut given)?;
     }
-    let boundary = mesh.vertices().filter(|&vertex| mesh.is_boundary(vertex));
+    // Of the outer boundary: the rims of holes are free.
+    let mut loops = mesh.boundary_loops();
+    mesh.outer_first(&mut loops);
+    let mut boundary = loops.first().map(|outer| mesh.loop_vertices(outer)).unwrap_or_default();
+    boundary.sort_unstable();
     boundary
+        .into_iter()
         .map(|vertex| {
             let source = mesh.source_vertex(vertex);
             given[source as usize].map(|uv| (vertex, uv)).ok_or_else(|| {
                 let line = input.document.vertex_line(source as usize);
                 let place = format!("vertex {} ({}:{line})", source + 1, input.name);
                 Failure::new(Exit::Input, format!("{name}: no position for {place}"))
-                    .help("every vertex on the boundary needs one; `qparam info` counts them")
+                    .help("every vertex on the outer boundary needs one; `qparam info` counts them")
             })
         })
         .collect()

@@ -45,7 +45,20 @@ const RIVALS: &[[&str; 2]] = &[["remove-fraction", "remove-below"], ["json", "qu
 /// The commands that make maps; the file's keys are the options of the first.
 const MAPPING: [&str; 2] = ["unwrap", "sweep"];
 /// Options that mean something else, or nothing, to `sweep`.
-const NOT_FOR_SWEEP: &[&str] = &["q", "json", "quiet", "uv-precision"];
+const NOT_FOR_SWEEP: &[&str] = &[
+    "q",
+    "json",
+    "quiet",
+    "uv-precision",
+    "seams",
+    "max-stretch",
+    "strict",
+    "density",
+    "up",
+    "resolution",
+    "margin",
+    "no-pack",
+];
 /// Options about one run, not about habits.
 const NOT_IN_FILES: &[&str] =
     &["output", "simplified", "pin", "pins", "config", "no-config", "help", "version"];

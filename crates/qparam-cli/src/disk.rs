@@ -1,4 +1,4 @@
-//! This version maps disks; of everything else it says what it is, and where.
+//! What surfaces are, in words; `sweep` maps one disk, with or without holes.
 
 use qoptimize::qmesh::{QuadMesh, Topology};
 
@@ -10,10 +10,10 @@ use crate::table::counted;
 /// How many places a message names.
 const SHOWN: usize = 4;
 
-/// Refuses a mesh that is not a disk, and says what it is instead.
-pub(crate) fn require_disk(mesh: &QuadMesh, input: &Input) -> Result<(), Failure> {
+/// Refuses a mesh that is no disk (perhaps with holes), and says what it is instead.
+pub(crate) fn require_patch(mesh: &QuadMesh, input: &Input) -> Result<(), Failure> {
     let topology = mesh.topology();
-    if topology.is_disk() {
+    if topology.components == 1 && topology.boundary_loops > 0 && topology.genus == 0 {
         return Ok(());
     }
     let message = format!("{}: the mesh is not a disk: {}", input.name, describe(&topology));
@@ -21,15 +21,9 @@ pub(crate) fn require_disk(mesh: &QuadMesh, input: &Input) -> Result<(), Failure
     Err(if topology.components > 1 {
         failure
             .note(format!("the components start at {}", component_places(mesh, input)))
-            .help("write each component into a file of its own and unwrap them one by one")
-    } else if topology.boundary_loops == 0 {
-        failure.help("cut it open along edges first, so that it has one boundary")
-    } else if topology.boundary_loops > 1 {
-        failure
-            .note(format!("the boundary loops pass {}", loop_places(mesh, input)))
-            .help("fill the holes, or cut the mesh along edges that join the loops")
+            .help("write each component into a file of its own and map them one by one")
     } else {
-        failure.help("cut the handles open along edges first")
+        failure.help("cut it open along edges first; `qparam unwrap` does so by itself")
     })
 }
 
@@ -46,15 +40,6 @@ fn component_places(mesh: &QuadMesh, input: &Input) -> String {
             .flatten()
             .map(|&face| format!("face {} (line {})", face + 1, input.document.face_line(face))),
     )
-}
-
-/// One vertex of each boundary loop.
-fn loop_places(mesh: &QuadMesh, input: &Input) -> String {
-    list(mesh.boundary_loops().iter().map(|walk| {
-        let vertex = mesh.source_vertex(mesh.origin(walk[0])) as usize;
-        let line = input.document.vertex_line(vertex);
-        format!("vertex {} (line {line}, {})", vertex + 1, counted(walk.len(), "edge"))
-    }))
 }
 
 fn list(mut places: impl Iterator<Item = String>) -> String {

@@ -13,7 +13,7 @@ pub enum Exit {
     Usage = 2,
     /// The input could not be read or parsed.
     Input = 3,
-    /// The mesh is not supported.
+    /// The mesh is refused.
     Mesh = 4,
     /// The computation failed.
     Computation = 5,
@@ -39,7 +39,7 @@ Exit codes:
     0  done; for unwrap: the map is written and certified (no flips, no overlaps)
     2  wrong usage: an option, or the configuration file
     3  the input could not be read or parsed
-    4  the mesh is not supported (not manifold, not a disk); the message says what it is
+    4  the mesh is refused; the message says why (with --strict: what would have to be mended)
     5  the computation failed
     6  the output could not be written
     7  UVs were written, but flips or overlaps remain (check, measure --check: were found)

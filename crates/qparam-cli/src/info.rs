@@ -1,24 +1,27 @@
 //! `qparam info`: what a mesh is, also when no mesh can be built from it.
 
-mod connectivity;
+pub(crate) mod connectivity;
 mod labels;
 mod shape;
 
-use qoptimize::qmesh::Topology;
+use qoptimize::qmesh::charts::cut;
+use qoptimize::qmesh::{Seams, Topology};
 use serde::Serialize;
 
 use crate::args::InfoArgs;
-use crate::disk::{describe, require_disk};
+use crate::disk::describe;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::info::connectivity::Connectivity;
 use crate::info::labels::Labels;
 use crate::info::shape::{Shape, Spread};
 use crate::input::Input;
+use crate::islands::repair_lines;
 use crate::json_text;
 use crate::report::Head;
 use crate::streams::Streams;
 use crate::table::{counted, grouped, short};
+use crate::translate::refused;
 
 #[derive(Serialize)]
 struct Report {
@@ -38,6 +41,8 @@ struct Report {
     is_disk: bool,
     /// Why `unwrap` would refuse the mesh.
     refusal: Option<Failure>,
+    /// What `unwrap` would mend.
+    repairs: Vec<String>,
     #[serde(flatten)]
     shape: Shape,
     labels: Labels,
@@ -56,7 +61,9 @@ fn inspect(input: &Input) -> Report {
     };
     let mesh = input.mesh();
     let topology = mesh.as_ref().ok().map(qoptimize::qmesh::QuadMesh::topology);
-    let refusal = mesh.and_then(|mesh| require_disk(&mesh, input)).err();
+    let cut = cut(view, &Seams::default());
+    let refusal = cut.as_ref().err().map(|error| refused(error, input));
+    let repairs = cut.map(|cut| repair_lines(&cut.repairs)).unwrap_or_default();
     Report {
         head: Head::new("info"),
         file: input.name.clone(),
@@ -70,6 +77,7 @@ fn inspect(input: &Input) -> Report {
         topology,
         is_disk: topology.is_some_and(|topology| topology.is_disk()),
         refusal,
+        repairs,
         shape: Shape::new(view),
         labels: Labels::new(input.document.bytes()),
     }
@@ -101,7 +109,12 @@ impl Report {
             text += &format!("  {oddity}\n");
         }
         match &self.refusal {
-            None => text += "`qparam unwrap` maps it\n",
+            None => {
+                text += "`qparam unwrap` maps it\n";
+                for repair in &self.repairs {
+                    text += &format!("  {repair}\n");
+                }
+            }
             Some(failure) => {
                 text += &format!("`qparam unwrap` refuses it\n  {}\n", failure.message);
                 for more in failure.causes.iter().chain(&failure.help) {

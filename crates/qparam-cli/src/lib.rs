@@ -33,12 +33,14 @@ mod streams;
 mod args;
 mod choices;
 mod config;
+mod layout_args;
 mod unwrap_args;
 
 mod boundary;
 mod disk;
 mod input;
 mod output;
+mod seams;
 mod translate;
 
 mod check;
@@ -53,6 +55,7 @@ mod sweep_command;
 mod threads;
 mod unwrap;
 
+mod islands;
 mod pages;
 mod pins;
 mod progress;

@@ -1,14 +1,17 @@
 //! Reports: the same figures for machines (JSON) and for people (a table).
 
-use qoptimize::qmesh::QuadMesh;
+use qoptimize::atlas::{Layout, SeamLength};
+use qoptimize::qmesh::Repairs;
 use qoptimize::qmesh::obj::UvWriteSummary;
 use qoptimize::qsolve::SolveMethod;
 use qoptimize::{
-    BoundaryRepair, Certificate, DirectReport, Distortion, RunRecord, ScaffoldEnd, StartMethod, Stop,
+    BoundaryRepair, Certificate, DirectReport, Distortion, Island, RunRecord, ScaffoldEnd, StartMethod, Stop,
 };
 use serde::Serialize;
 
+use crate::info::connectivity::Edges;
 use crate::input::Input;
+use crate::islands::{island_table, layout_lines, repair_lines};
 use crate::progress::StageTime;
 use crate::table::{Table, counted, short};
 
@@ -47,18 +50,23 @@ pub(crate) struct InputReport {
 }
 
 impl InputReport {
-    pub(crate) fn of(mesh: &QuadMesh, input: &Input) -> Self {
-        let counts = mesh.face_counts();
+    pub(crate) fn new(input: &Input) -> Self {
+        let view = input.document.view();
+        let mut counts = [0; 3];
+        for face in 0..view.face_count() {
+            counts[view.face(face).len().clamp(3, 5) - 3] += 1;
+        }
+        let counted = Edges::count(view);
         Self {
             file: input.name.clone(),
-            vertices: mesh.source_vertex_count(),
-            unused_vertices: mesh.source_vertex_count() - mesh.vertex_count(),
-            edges: mesh.edge_count(),
-            boundary_edges: mesh.halfedge_count() - mesh.corner_count(),
-            faces: mesh.face_count(),
-            triangles: counts.triangles,
-            quads: counts.quads,
-            polygons: counts.polygons,
+            vertices: view.positions.len(),
+            unused_vertices: counted.unused_vertices,
+            edges: counted.edges,
+            boundary_edges: counted.boundary_edges,
+            faces: view.face_count(),
+            triangles: counts[0],
+            quads: counts[1],
+            polygons: counts[2],
         }
     }
 
@@ -98,7 +106,17 @@ pub(crate) struct UnwrapReport<'a> {
     pub(crate) certificate: Certificate,
     pub(crate) distortion: &'a Distortion,
     pub(crate) options: serde_json::Value,
-    pub(crate) record: &'a RunRecord,
+    /// How the map came about; nothing when there are several islands.
+    pub(crate) record: Option<&'a RunRecord>,
+    /// What had to be mended, in numbers from 0.
+    pub(crate) repairs: &'a Repairs,
+    /// What was cut.
+    pub(crate) seams: SeamLength,
+    /// How islands were laid out.
+    pub(crate) layout: Option<Layout>,
+    pub(crate) layout_options: serde_json::Value,
+    /// By first face, in numbers from 0.
+    pub(crate) islands: &'a [Island],
     pub(crate) timings_seconds: Timings,
     pub(crate) peak_memory_bytes: Option<u64>,
 }
@@ -126,10 +144,15 @@ pub(crate) fn verdict(distortion: &Distortion) -> String {
 pub(crate) fn unwrap_text(report: &UnwrapReport<'_>, method: &str, color: bool) -> String {
     let mut text = report.input.line();
     text += &format!("{method}\n");
-    for line in record_lines(report.record) {
+    let record = report.record.map(record_lines).unwrap_or_default();
+    let layout = layout_lines(report.seams, report.layout.as_ref(), report.islands);
+    for line in repair_lines(report.repairs).into_iter().chain(record).chain(layout) {
         text += &format!("  {line}\n");
     }
     text += "\n";
+    if report.islands.len() > 1 {
+        text += &(island_table(report.islands).render(color) + "\n");
+    }
     text += &distortion_table(&[(String::new(), report.distortion)]).render(color);
     text += &format!("\ncertificate: {}\n", report.certificate);
     let times = &report.timings_seconds;

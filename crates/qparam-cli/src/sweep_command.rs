@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use crate::args::SweepArgs;
 use crate::boundary;
-use crate::disk::require_disk;
+use crate::disk::require_patch;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
@@ -55,7 +55,7 @@ pub(crate) fn run(arguments: &SweepArgs, io: &mut Streams<'_>) -> Result<Exit, F
     }
     let input = Input::read(&arguments.input, io.stdin)?;
     let mesh = input.mesh()?;
-    require_disk(&mesh, &input)?;
+    require_patch(&mesh, &input)?;
     if let (BoundaryShape::Fixed(positions), Some(path)) = (&mut options.boundary, &arguments.map.boundary_uv)
     {
         *positions = boundary::read(path, io.stdin, &mesh, &input)?;
@@ -73,7 +73,7 @@ pub(crate) fn run(arguments: &SweepArgs, io: &mut Streams<'_>) -> Result<Exit, F
         let text = csv_text(&sweep);
         target.write(io.stdout, io.interrupt, |writer| writer.write_all(text.as_bytes()))?;
     }
-    let input = InputReport::of(&mesh, &input);
+    let input = InputReport::new(&input);
     if arguments.json {
         let mut options = options_json(&options, arguments.map.boundary_uv.as_deref());
         options["q"] = serde_json::json!(arguments.q);

@@ -5,8 +5,9 @@ use std::collections::BTreeSet;
 use qoptimize::direct::StartError;
 use qoptimize::qembed::EmbedError;
 use qoptimize::qmesh::{BuildError, QuadMesh, VertexId};
-use qoptimize::{Certificate, ParameterizeError};
+use qoptimize::{AtlasError, Certificate, ParameterizeError};
 
+use crate::disk::describe;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
@@ -92,6 +93,30 @@ pub(crate) fn refused(error: &BuildError, input: &Input) -> Failure {
             "give each fan a vertex of its own",
         ),
         other => Failure::new(Exit::Mesh, format!("{}: the faces are no mesh", input.name)).cause(other),
+    }
+}
+
+/// Why there are no UVs.
+pub(crate) fn no_atlas(error: &AtlasError, islands: usize, input: &Input) -> Failure {
+    match error {
+        AtlasError::Cancelled => Failure::interrupted(),
+        AtlasError::Build(error) => refused(error, input),
+        AtlasError::Island { mesh, error: ParameterizeError::Embed(embed), first_face }
+            if matches!(embed, EmbedError::Closed { .. } | EmbedError::Handles { .. }) =>
+        {
+            let line = input.document.face_line(*first_face as usize);
+            let place = format!("the island of face {} (line {line})", first_face + 1);
+            let message =
+                format!("{}: {place} cannot be flattened: {}", input.name, describe(&mesh.topology()));
+            Failure::new(Exit::Mesh, message)
+                .help("leave --seams none out: it is cut open automatically then")
+        }
+        AtlasError::Island { mesh, error, .. } if islands == 1 => no_map(error, mesh, input),
+        AtlasError::Island { mesh, error, first_face } => {
+            let line = input.document.face_line(*first_face as usize);
+            no_map(error, mesh, input).note(format!("in the island of face {} (line {line})", first_face + 1))
+        }
+        other => Failure::new(Exit::Computation, format!("{}: no map was found", input.name)).cause(other),
     }
 }
 

@@ -5,41 +5,46 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::ValueEnum;
+use qoptimize::atlas::{open, unwrap_charts};
 use qoptimize::qembed::BoundaryShape;
+use qoptimize::qmesh::charts::cut;
 use qoptimize::qmesh::obj::{UvWriteSummary, write_obj};
-use qoptimize::qmesh::{QuadMesh, VertexId};
+use qoptimize::qmesh::{Chart, QuadMesh, Repairs};
 use qoptimize::qsimplify::{SimplifyError, simplify};
-use qoptimize::{Certificate, Method, Options, Parameterization, parameterize};
+use qoptimize::{Atlas, AtlasOptions, Certificate, Method, Options, RunRecord};
 
 use crate::args::{MapArgs, UnwrapArgs};
 use crate::boundary;
 use crate::choices::{BoundaryChoice, MethodChoice, RuleChoice};
-use crate::disk::require_disk;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::interrupt::Phase;
+use crate::islands::refuse_repairs;
 use crate::json_text;
 use crate::output::Target;
 use crate::pins;
 use crate::progress::{StageTime, Watch};
 use crate::report::{Head, InputReport, LISTED, Timings, UnwrapReport, peak_memory_bytes, unwrap_text};
+use crate::seams;
 use crate::streams::Streams;
 use crate::threads;
-use crate::translate::no_map;
+use crate::translate::{no_atlas, refused};
 
 /// What a run has gathered before it computes.
 struct Job<'a> {
     arguments: &'a UnwrapArgs,
-    options: Options,
+    options: AtlasOptions,
     input: Input,
-    mesh: QuadMesh,
+    /// What the polygons fall into, opened where that is needed.
+    charts: Vec<Chart>,
+    repairs: Repairs,
     target: Target,
 }
 
 pub(crate) fn run(arguments: &UnwrapArgs, typed: &[String], io: &mut Streams<'_>) -> Result<Exit, Failure> {
     let start = Instant::now();
-    let mut options = arguments.options()?;
+    let options = arguments.options()?;
     let target = Target::new(&output_path(arguments));
     let simplified = arguments.simplified.as_deref().map(Target::new);
     refuse_clashes(arguments, &target, simplified.as_ref())?;
@@ -54,17 +59,19 @@ pub(crate) fn run(arguments: &UnwrapArgs, typed: &[String], io: &mut Streams<'_>
 
     let mut timings = Timings::default();
     let input = timed(&mut timings.read, || Input::read(&arguments.input, io.stdin))?;
-    let mesh = timed(&mut timings.build, || {
-        let mesh = input.mesh()?;
-        require_disk(&mesh, &input)?;
-        Ok(mesh)
-    })?;
-    if let (BoundaryShape::Fixed(positions), Some(path)) = (&mut options.boundary, &arguments.map.boundary_uv)
+    let mut options = arguments.layout.options(options);
+    let (charts, repairs) = timed(&mut timings.build, || charts(arguments, &options, &input, io))?;
+    if let (BoundaryShape::Fixed(positions), Some(path)) =
+        (&mut options.map.boundary, &arguments.map.boundary_uv)
     {
-        *positions = boundary::read(path, io.stdin, &mesh, &input)?;
+        let mesh = only_island("--boundary fixed", &charts, &input)?;
+        *positions = boundary::read(path, io.stdin, mesh, &input)?;
     }
-    options.pins = pins::read(&arguments.pin, arguments.pins.as_deref(), io.stdin, &mesh, &input)?;
-    let job = Job { arguments, options, input, mesh, target };
+    if !arguments.pin.is_empty() || arguments.pins.is_some() {
+        let mesh = only_island("pins", &charts, &input)?;
+        options.map.pins = pins::read(&arguments.pin, arguments.pins.as_deref(), io.stdin, mesh, &input)?;
+    }
+    let job = Job { arguments, options, input, charts, repairs, target };
     let (result, stages) = timed(&mut timings.parameterize, || job.compute(io))?;
     timings.stages = stages;
     let written = timed(&mut timings.write, || {
@@ -77,6 +84,31 @@ pub(crate) fn run(arguments: &UnwrapArgs, typed: &[String], io: &mut Streams<'_>
     })?;
     timings.total = start.elapsed().as_secs_f64();
     job.report(&result, written, timings, io)
+}
+
+/// The mesh, where there is but one: places are given in the plane of one island.
+fn only_island<'a>(what: &str, charts: &'a [Chart], input: &Input) -> Result<&'a QuadMesh, Failure> {
+    match charts {
+        [chart] => Ok(&chart.mesh),
+        _ => Err(Failure::new(Exit::Usage, format!("{what}: {} has {} islands", input.name, charts.len()))
+            .help("places are given in the plane of one island; write each into a file of its own")),
+    }
+}
+
+/// The charts of the input, cut where it was asked for and where it is needed.
+fn charts(
+    arguments: &UnwrapArgs,
+    options: &AtlasOptions,
+    input: &Input,
+    io: &mut Streams<'_>,
+) -> Result<(Vec<Chart>, Repairs), Failure> {
+    let seams = seams::collect(&arguments.layout.seams, input, io)?;
+    let cut = cut(input.document.view(), &seams).map_err(|error| refused(&error, input))?;
+    if arguments.layout.strict {
+        refuse_repairs(&cut.repairs, input)?;
+    }
+    let open = || if options.open { open(cut.charts) } else { cut.charts };
+    Ok((threads::with(arguments.map.threads, open)?, cut.repairs))
 }
 
 fn timed<T>(seconds: &mut f64, work: impl FnOnce() -> T) -> T {
@@ -195,51 +227,62 @@ fn notes(arguments: &UnwrapArgs, typed: &[String]) -> Vec<String> {
 }
 
 impl Job<'_> {
-    fn compute(&self, io: &Streams<'_>) -> Result<(Parameterization, Vec<StageTime>), Failure> {
+    fn compute(&self, io: &Streams<'_>) -> Result<(Atlas, Vec<StageTime>), Failure> {
         let watch = Watch::new(io.interrupt, io.stderr_is_terminal && !self.arguments.quiet);
-        let work = || parameterize(&self.mesh, &self.options, &watch);
+        let polygons = self.input.document.view();
+        let work =
+            || unwrap_charts(polygons, self.charts.clone(), self.repairs.clone(), &self.options, &watch);
         let result = io.interrupt.during(Phase::Watched, || threads::with(self.arguments.map.threads, work));
         let stages = watch.finish();
         let result = result?;
         if io.interrupt.is_requested() {
             return Err(Failure::interrupted());
         }
-        let result = result.map_err(|error| no_map(&error, &self.mesh, &self.input))?;
+        let result = result.map_err(|error| no_atlas(&error, self.charts.len(), &self.input))?;
         Ok((result, stages))
     }
 
     fn write_simplified(&self, target: &Target, io: &mut Streams<'_>) -> Result<(), Failure> {
         let watch = Watch::new(io.interrupt, false);
+        let mesh = match &self.charts[..] {
+            [chart] => chart.mesh.clone(),
+            _ => self.input.mesh()?,
+        };
         let simplified =
-            io.interrupt.during(Phase::Watched, || simplify(&self.mesh, &self.options.simplify, &watch));
+            io.interrupt.during(Phase::Watched, || simplify(&mesh, &self.options.map.simplify, &watch));
         let simplified = simplified.map_err(|error| match error {
             SimplifyError::Cancelled => Failure::interrupted(),
             other => Failure::new(Exit::Computation, "the mesh could not be simplified").cause(&other),
         })?;
-        let polygons = simplified.polygons(&self.mesh);
+        let polygons = simplified.polygons(&mesh);
         target.write(io.stdout, io.interrupt, |mut writer| write_obj(&mut writer, polygons.view(), None))
     }
 
     fn report(
         &self,
-        result: &Parameterization,
+        result: &Atlas,
         uv_lines: UvWriteSummary,
         timings: Timings,
         io: &mut Streams<'_>,
     ) -> Result<Exit, Failure> {
         let arguments = self.arguments;
-        let certificate = in_file_numbers(&result.certificate, &self.mesh);
+        let certificate = shortened(&result.certificate);
         let valid = certificate.holds;
         let report = UnwrapReport {
             head: Head::new("unwrap"),
-            input: InputReport::of(&self.mesh, &self.input),
+            input: InputReport::new(&self.input),
             output: self.target.to_string(),
             uv_lines,
             valid,
             certificate,
             distortion: &result.distortion,
-            options: options_json(&self.options, arguments.map.boundary_uv.as_deref()),
-            record: &result.record,
+            options: options_json(&self.options.map, arguments.map.boundary_uv.as_deref()),
+            record: record(result),
+            repairs: &result.repairs,
+            seams: result.seams,
+            layout: result.layout,
+            layout_options: layout_json(&self.options),
+            islands: &result.islands,
             timings_seconds: timings,
             peak_memory_bytes: peak_memory_bytes(),
         };
@@ -265,20 +308,33 @@ impl Job<'_> {
     }
 }
 
-/// The vertices of the places as the file numbers them, from 0, and no more places than reports list.
-fn in_file_numbers(certificate: &Certificate, mesh: &QuadMesh) -> Certificate {
+/// No more places than reports list.
+fn shortened(certificate: &Certificate) -> Certificate {
     let mut certificate = certificate.clone();
     let mut listed = BTreeMap::new();
-    certificate.violations.retain_mut(|violation| {
-        for place in &mut violation.places {
-            place.vertex = mesh.source_vertex(VertexId(place.vertex));
-            place.to_vertex = place.to_vertex.map(|vertex| mesh.source_vertex(VertexId(vertex)));
-        }
+    certificate.violations.retain(|violation| {
         let count = listed.entry(violation.kind).or_insert(0);
         *count += 1;
         *count <= LISTED
     });
     certificate
+}
+
+/// How the only island came about; of several, nothing that holds for all.
+fn record(atlas: &Atlas) -> Option<&RunRecord> {
+    match &atlas.islands[..] {
+        [island] => Some(&island.record),
+        _ => None,
+    }
+}
+
+/// The options of seams and layout, without those of the map.
+fn layout_json(options: &AtlasOptions) -> serde_json::Value {
+    let mut value = serde_json::to_value(options).unwrap_or_default();
+    if let Some(fields) = value.as_object_mut() {
+        fields.remove("map");
+    }
+    value
 }
 
 /// What was asked for, in one line.

@@ -16,6 +16,7 @@ use crate::choices::{
 };
 use crate::exit::{self, Exit};
 use crate::failure::Failure;
+use crate::layout_args::LayoutArgs;
 use crate::pins::{self, PinArg};
 
 /// Compute UVs and write them into a copy of the file.
@@ -40,6 +41,8 @@ pub(crate) struct UnwrapArgs {
     pub(crate) q: f64,
     #[command(flatten)]
     pub(crate) map: MapArgs,
+    #[command(flatten)]
+    pub(crate) layout: LayoutArgs,
     /// What the UVs are rounded to before they are certified and written
     #[arg(long, value_enum, default_value = "f64", help_heading = "Files")]
     pub(crate) uv_precision: PrecisionChoice,
@@ -201,7 +204,7 @@ Exit codes:
     0  the map is written and certified (no flips, no overlaps)
     2  wrong usage: an option, or the configuration file
     3  the input could not be read or parsed
-    4  the mesh is not supported (not manifold, not a disk); the message says what it is
+    4  the mesh is refused; the message says why (with --strict: what would have to be mended)
     5  the computation failed
     6  the output could not be written
     7  UVs were written, but flips or overlaps remain
@@ -321,11 +324,11 @@ pub(crate) fn unit(text: &str) -> Result<f64, String> {
     number(text, |x| (0.0..=1.0).contains(&x), "a number between 0 and 1")
 }
 
-fn not_negative(text: &str) -> Result<f64, String> {
+pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
     number(text, |x| x >= 0.0 && x.is_finite(), "a number of at least 0")
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
     number(text, |x| x > 0.0 && x.is_finite(), "a number above 0")
 }
 

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use qoptimize::qmesh::PolygonView;
+use rayon::prelude::*;
 use serde::Serialize;
 
 /// Counts of edges and vertices, and what is unusual among them.
@@ -24,6 +25,29 @@ pub(crate) struct Connectivity {
     pub(crate) interior_valences: BTreeMap<usize, usize>,
     /// How many boundary vertices have each number of edges.
     pub(crate) boundary_valences: BTreeMap<usize, usize>,
+}
+
+/// Counts of edges and of vertices without faces.
+pub(crate) struct Edges {
+    pub(crate) edges: usize,
+    pub(crate) boundary_edges: usize,
+    pub(crate) unused_vertices: usize,
+}
+
+impl Edges {
+    pub(crate) fn count(view: PolygonView<'_>) -> Self {
+        let faces = (0..view.face_count()).map(|face| view.face(face));
+        let mut edges: Vec<[u32; 2]> = faces.flat_map(sides).map(ordered).collect();
+        edges.par_sort_unstable();
+        let groups = || edges.chunk_by(|a, b| a == b);
+        let mut used = vec![false; view.positions.len()];
+        view.corner_vertex.iter().for_each(|&vertex| used[vertex as usize] = true);
+        Self {
+            edges: groups().count(),
+            boundary_edges: groups().filter(|group| group.len() == 1).count(),
+            unused_vertices: used.iter().filter(|&&used| !used).count(),
+        }
+    }
 }
 
 impl Connectivity {

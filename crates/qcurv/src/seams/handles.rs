@@ -1,0 +1,220 @@
+//! Loops that open handles: a shortest path tree, a spanning tree of the faces across the other edges, and what is left.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use qmesh::{EdgeData, EdgeId, HalfedgeId, QuadMesh, VertexData, VertexId};
+
+use super::distances::{distances, farthest, key};
+use super::{SeamCost, patch, paths, prune};
+
+/// Base points that are tried.
+const BASES: usize = 12;
+/// How far from a loop its straightened copy may lie, in edges.
+const CORRIDOR: usize = 4;
+
+/// A short system of edges along which cutting makes a planar patch of a connected mesh with handles.
+pub(super) fn open(mesh: &QuadMesh, cost: &SeamCost) -> Vec<EdgeId> {
+    let systems = bases(mesh).into_iter().map(|base| system(mesh, cost, base));
+    let best = systems.reduce(|best, next| if cost.of(&next) < cost.of(&best) { next } else { best });
+    let loops = best.unwrap_or_default();
+    let straight = straightened(mesh, cost, &loops);
+    // The same patch, not one that is left with another number of loops because two arcs came to lie on each other.
+    let is_alike = patch(mesh, &straight).is_some_and(|found| Some(found) == patch(mesh, &loops));
+    if cost.of(&straight) < 1.5 * cost.of(&loops) && is_alike { straight } else { loops }
+}
+
+/// Points spread over the surface.
+fn bases(mesh: &QuadMesh) -> Vec<VertexId> {
+    let mut bases = vec![farthest(&distances(mesh, &[VertexId(0)]))];
+    let mut nearest = distances(mesh, &bases);
+    while bases.len() < BASES {
+        let next = farthest(&nearest);
+        let from_next = distances(mesh, &[next]);
+        for vertex in mesh.vertices() {
+            nearest[vertex] = nearest[vertex].min(from_next[vertex]);
+        }
+        bases.push(next);
+    }
+    bases
+}
+
+/// The union of the greedy loops through `base`, without what hangs loose.
+fn system(mesh: &QuadMesh, cost: &SeamCost, base: VertexId) -> Vec<EdgeId> {
+    let (distance, parent) = tree(mesh, cost, base);
+    let mut in_tree = mesh.edge_data(|_| false);
+    for halfedge in parent.iter().flatten() {
+        in_tree[mesh.edge(*halfedge)] = true;
+    }
+    let mut edges = Vec::new();
+    for edge in left_over(mesh, cost, &distance, &in_tree) {
+        edges.push(edge);
+        for mut vertex in mesh.edge_vertices(edge) {
+            while let Some(halfedge) = parent[vertex] {
+                edges.push(mesh.edge(halfedge));
+                vertex = mesh.origin(halfedge);
+            }
+        }
+    }
+    edges.sort_unstable();
+    edges.dedup();
+    prune(mesh, edges)
+}
+
+/// Shortest paths from `base`: what they cost, and the last halfedge of each.
+fn tree(
+    mesh: &QuadMesh,
+    cost: &SeamCost,
+    base: VertexId,
+) -> (VertexData<f64>, VertexData<Option<HalfedgeId>>) {
+    let mut distance = mesh.vertex_data(|_| f64::INFINITY);
+    let mut parent = mesh.vertex_data(|_| None);
+    distance[base] = 0.0;
+    let mut heap = BinaryHeap::from([Reverse((key(0.0), base))]);
+    while let Some(Reverse((known, vertex))) = heap.pop() {
+        if known != key(distance[vertex]) {
+            continue;
+        }
+        for halfedge in mesh.outgoing(vertex) {
+            let (to, there) = (mesh.target(halfedge), distance[vertex] + cost.edges[mesh.edge(halfedge)]);
+            if there < distance[to] {
+                distance[to] = there;
+                parent[to] = Some(halfedge);
+                heap.push(Reverse((key(there), to)));
+            }
+        }
+    }
+    (distance, parent)
+}
+
+/// The edges outside the tree that are also outside a spanning tree of the faces (and boundary loops, which count as faces),
+/// where edges with long loops join faces first: two for each handle.
+fn left_over(
+    mesh: &QuadMesh,
+    cost: &SeamCost,
+    distance: &VertexData<f64>,
+    in_tree: &EdgeData<bool>,
+) -> Vec<EdgeId> {
+    let side = sides(mesh);
+    let around = |edge: EdgeId| {
+        let [a, b] = mesh.edge_vertices(edge);
+        distance[a] + distance[b] + cost.edges[edge]
+    };
+    let mut others: Vec<EdgeId> = mesh.edges().filter(|&edge| !in_tree[edge]).collect();
+    others.sort_by(|&a, &b| around(b).total_cmp(&around(a)).then(a.cmp(&b)));
+    let mut parent: Vec<u32> = (0..mesh.halfedge_count() as u32).collect();
+    let mut root = move |mut node: u32, join: Option<u32>| {
+        while parent[node as usize] != node {
+            parent[node as usize] = parent[parent[node as usize] as usize];
+            node = parent[node as usize];
+        }
+        if let Some(other) = join {
+            parent[node as usize] = other;
+        }
+        node
+    };
+    let is_left = |edge: &EdgeId| {
+        let halfedge = mesh.halfedge(*edge);
+        let [a, b] = [halfedge, mesh.twin(halfedge)].map(|h| root(side[h.index()], None));
+        if a != b {
+            root(a, Some(b));
+        }
+        a == b
+    };
+    others.into_iter().filter(is_left).collect()
+}
+
+/// A number for the face or boundary loop on the left of each halfedge.
+fn sides(mesh: &QuadMesh) -> Vec<u32> {
+    let mut side: Vec<u32> = mesh.corners().map(|corner| mesh.face(corner).0).collect();
+    side.resize(mesh.halfedge_count(), 0);
+    for (place, walk) in mesh.boundary_loops().iter().enumerate() {
+        walk.iter().for_each(|halfedge| side[halfedge.index()] = (mesh.face_count() + place) as u32);
+    }
+    side
+}
+
+/// The same arcs between the same branchings, each led anew along edge loops as far as they stay close.
+fn straightened(mesh: &QuadMesh, cost: &SeamCost, edges: &[EdgeId]) -> Vec<EdgeId> {
+    let mut result = Vec::new();
+    let arcs = arcs(mesh, edges);
+    let mut others = mesh.vertex_data(|_| 0u32);
+    for vertex in arcs.iter().flatten() {
+        others[*vertex] += 1;
+    }
+    for arc in &arcs {
+        let near = corridor(mesh, arc, &others);
+        let (start, end) = (arc[0], arc[arc.len() - 1]);
+        let mut blocked = SeamCost { edges: cost.edges.clone() };
+        for edge in mesh.edges().filter(|&edge| mesh.edge_vertices(edge).iter().any(|&v| !near[v])) {
+            blocked.edges[edge] = f64::INFINITY;
+        }
+        result.extend(paths::cheapest_path(mesh, &blocked, &[start], |vertex| vertex == end));
+    }
+    result.sort_unstable();
+    result.dedup();
+    result
+}
+
+/// The vertices near an arc, not counting those of other arcs.
+fn corridor(mesh: &QuadMesh, arc: &[VertexId], taken: &VertexData<u32>) -> VertexData<bool> {
+    let mut near = mesh.vertex_data(|_| false);
+    let mut front: Vec<VertexId> = arc.to_vec();
+    arc.iter().for_each(|&vertex| near[vertex] = true);
+    for _ in 0..CORRIDOR.min(arc.len() / 3) {
+        let mut next = Vec::new();
+        for vertex in front.iter().flat_map(|&vertex| mesh.neighbors(vertex)) {
+            if taken[vertex] == 0 && !mesh.is_boundary(vertex) && !std::mem::replace(&mut near[vertex], true)
+            {
+                next.push(vertex);
+            }
+        }
+        front = next;
+    }
+    near
+}
+
+/// The edges as walks between vertices where they branch or end; closed walks are split in three.
+fn arcs(mesh: &QuadMesh, edges: &[EdgeId]) -> Vec<Vec<VertexId>> {
+    let mut at: Vec<(VertexId, EdgeId)> =
+        edges.iter().flat_map(|&edge| mesh.edge_vertices(edge).map(|vertex| (vertex, edge))).collect();
+    at.sort_unstable();
+    let around = |vertex: VertexId| {
+        let from = at.partition_point(|&(v, _)| v < vertex);
+        at[from..].iter().take_while(move |&&(v, _)| v == vertex).map(|&(_, edge)| edge)
+    };
+    let is_node = |vertex: VertexId| around(vertex).count() != 2;
+    let mut seen = std::collections::HashSet::new();
+    let mut walks = Vec::new();
+    let nodes = at.iter().map(|&(vertex, _)| vertex).filter(|&vertex| is_node(vertex));
+    for start in nodes.chain(at.iter().map(|&(vertex, _)| vertex)) {
+        for first in around(start).collect::<Vec<_>>() {
+            let (mut walk, mut edge, mut vertex) = (vec![start], first, start);
+            while seen.insert(edge) {
+                let [a, b] = mesh.edge_vertices(edge);
+                vertex = if a == vertex { b } else { a };
+                walk.push(vertex);
+                if is_node(vertex) {
+                    break;
+                }
+                match around(vertex).find(|&next| next != edge) {
+                    Some(next) => edge = next,
+                    None => break,
+                }
+            }
+            if walk.len() > 1 {
+                walks.extend(split(walk));
+            }
+        }
+    }
+    walks
+}
+
+/// A walk whose ends are the same, or that is long, in parts: the copy of a part cannot go round the other way.
+fn split(walk: Vec<VertexId>) -> Vec<Vec<VertexId>> {
+    let closed = walk[0] == walk[walk.len() - 1];
+    let parts = if closed { 3 } else { 1 };
+    let steps = walk.len() - 1;
+    let at = |part: usize| part * steps / parts;
+    (0..parts).map(|part| walk[at(part)..=at(part + 1)].to_vec()).filter(|part| part.len() > 1).collect()
+}

@@ -1,0 +1,115 @@
+//! Cheapest paths along edges that would rather go straight on.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use qmesh::{EdgeId, HalfedgeData, HalfedgeId, QuadMesh, VertexId};
+
+use super::SeamCost;
+use super::distances::key;
+
+/// Cheapest paths from some vertices to all others. The state of the search is the last halfedge, since what the next one
+/// costs depends on where the path comes from.
+#[derive(Clone, Debug)]
+pub struct SeamPaths {
+    cost: HalfedgeData<f64>,
+    before: HalfedgeData<HalfedgeId>,
+    reached: Vec<HalfedgeId>,
+}
+
+const NONE: HalfedgeId = HalfedgeId(u32::MAX);
+
+impl SeamPaths {
+    /// Searches from `sources`, until a vertex is reached for which `is_goal` holds; to the end when there is none. Paths may not
+    /// pass through sources again.
+    #[must_use]
+    pub fn search(
+        mesh: &QuadMesh,
+        cost: &SeamCost,
+        sources: &[VertexId],
+        mut is_goal: impl FnMut(VertexId) -> bool,
+    ) -> Self {
+        let mut paths = Self {
+            cost: HalfedgeData::filled(mesh.halfedge_count(), f64::INFINITY),
+            before: HalfedgeData::filled(mesh.halfedge_count(), NONE),
+            reached: Vec::new(),
+        };
+        let mut is_source = mesh.vertex_data(|_| false);
+        sources.iter().for_each(|&vertex| is_source[vertex] = true);
+        let mut heap = BinaryHeap::new();
+        for halfedge in sources.iter().flat_map(|&vertex| mesh.outgoing(vertex)) {
+            paths.improve(&mut heap, halfedge, cost.edges[mesh.edge(halfedge)], NONE);
+        }
+        let mut is_known = mesh.vertex_data(|_| false);
+        while let Some(Reverse((known, halfedge))) = heap.pop() {
+            if known != key(paths.cost[halfedge]) {
+                continue;
+            }
+            let vertex = mesh.target(halfedge);
+            if is_source[vertex] {
+                continue;
+            }
+            if !std::mem::replace(&mut is_known[vertex], true) {
+                paths.reached.push(halfedge);
+                if is_goal(vertex) {
+                    break;
+                }
+            }
+            for next in mesh.outgoing(vertex).filter(|&next| next != mesh.twin(halfedge)) {
+                let there =
+                    paths.cost[halfedge] + cost.turn(mesh, halfedge, next) + cost.edges[mesh.edge(next)];
+                paths.improve(&mut heap, next, there, halfedge);
+            }
+        }
+        paths
+    }
+
+    fn improve(
+        &mut self,
+        heap: &mut BinaryHeap<Reverse<(u64, HalfedgeId)>>,
+        halfedge: HalfedgeId,
+        cost: f64,
+        before: HalfedgeId,
+    ) {
+        if cost < self.cost[halfedge] {
+            self.cost[halfedge] = cost;
+            self.before[halfedge] = before;
+            heap.push(Reverse((key(cost), halfedge)));
+        }
+    }
+
+    /// The halfedges by which vertices were reached, the cheapest first, with what their paths cost.
+    pub fn reached(&self) -> impl DoubleEndedIterator<Item = (HalfedgeId, f64)> + '_ {
+        self.reached.iter().map(|&halfedge| (halfedge, self.cost[halfedge]))
+    }
+
+    /// The edges of the path that ends with `last`, from there back to a source.
+    #[must_use]
+    pub fn path(&self, mesh: &QuadMesh, last: HalfedgeId) -> Vec<EdgeId> {
+        let mut edges = Vec::new();
+        let mut current = last;
+        // A path that turns back is cut short: no edge comes twice.
+        while current != NONE && edges.len() <= mesh.edge_count() {
+            edges.push(mesh.edge(current));
+            current = self.before[current];
+        }
+        edges.sort_unstable();
+        edges.dedup();
+        edges
+    }
+}
+
+/// The edges of the cheapest path from one of `sources` to a vertex for which `is_goal` holds; none when no path leads there.
+#[must_use]
+pub fn cheapest_path(
+    mesh: &QuadMesh,
+    cost: &SeamCost,
+    sources: &[VertexId],
+    is_goal: impl Fn(VertexId) -> bool,
+) -> Vec<EdgeId> {
+    let paths = SeamPaths::search(mesh, cost, sources, &is_goal);
+    match paths.reached().next_back() {
+        Some((last, _)) if is_goal(mesh.target(last)) => paths.path(mesh, last),
+        _ => Vec::new(),
+    }
+}

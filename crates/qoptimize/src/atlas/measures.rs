@@ -1,0 +1,87 @@
+//! Figures of charts and of the whole.
+
+use qembed::qcurv::surface_area;
+use qembed::qmesh::{FaceId, PolygonView, Polygons, QuadMesh, Vec2, VertexId};
+use rayon::prelude::*;
+
+use super::SeamLength;
+use super::solve::Solved;
+use crate::certificate::Certificate;
+
+/// The area in space and in the plane.
+pub(super) fn areas(mesh: &QuadMesh, uv: &[Vec2]) -> [f64; 2] {
+    let face = |face| {
+        let mut corners = mesh.face_corners(face);
+        let Some(first) = corners.next().map(|corner| uv[corner.index()]) else { return 0.0 };
+        let rest: Vec<Vec2> = corners.map(|corner| uv[corner.index()] - first).collect();
+        0.5 * rest.windows(2).map(|pair| pair[0].perp(&pair[1])).sum::<f64>()
+    };
+    [surface_area(mesh), mesh.faces().map(face).sum::<f64>().abs()]
+}
+
+/// The polygons' faces that run backwards in their chart, ascending.
+pub(super) fn turned_faces(solved: &[Solved]) -> Vec<u32> {
+    let mut turned: Vec<u32> = solved
+        .iter()
+        .flat_map(|island| {
+            let is_turned = |face: &FaceId| {
+                let mut corners =
+                    island.chart.mesh.face_corners(*face).map(|c| island.chart.source_corner(c));
+                let [first, second] = [corners.next(), corners.next()];
+                first.zip(second).is_some_and(|(first, second)| second != first + 1)
+            };
+            let faces = island.chart.mesh.faces().filter(is_turned);
+            faces.map(|face| island.chart.source_face(face)).collect::<Vec<_>>()
+        })
+        .collect();
+    turned.sort_unstable();
+    turned
+}
+
+/// Polygons and UVs with some faces turned over, each about its first corner.
+pub(super) fn oriented(polygons: PolygonView<'_>, turned: &[u32], uv: &[Vec2]) -> (Polygons, Vec<Vec2>) {
+    let mut oriented = Polygons {
+        positions: polygons.positions.to_vec(),
+        face_start: polygons.face_start.to_vec(),
+        corner_vertex: polygons.corner_vertex.to_vec(),
+    };
+    let mut uv = uv.to_vec();
+    for &face in turned {
+        let rest = polygons.corners(face as usize).start + 1..polygons.corners(face as usize).end;
+        oriented.corner_vertex[rest.clone()].reverse();
+        uv[rest].reverse();
+    }
+    (oriented, uv)
+}
+
+/// A certificate of a chart with the caller's vertices.
+pub(super) fn in_source_numbers(certificate: &Certificate, mesh: &QuadMesh) -> Certificate {
+    let mut certificate = certificate.clone();
+    for place in certificate.violations.iter_mut().flat_map(|violation| &mut violation.places) {
+        place.vertex = mesh.source_vertex(VertexId(place.vertex));
+        place.to_vertex = place.to_vertex.map(|vertex| mesh.source_vertex(VertexId(vertex)));
+    }
+    certificate
+}
+
+/// The edges that several faces share and that lie on the boundaries of islands.
+pub(super) fn seam_length(polygons: PolygonView<'_>, solved: &[Solved]) -> SeamLength {
+    let mut sides: Vec<[u32; 2]> = solved
+        .par_iter()
+        .flat_map_iter(|island| {
+            let mesh = &island.chart.mesh;
+            mesh.boundary_halfedges().map(move |halfedge| {
+                let [a, b] = [mesh.origin(halfedge), mesh.target(halfedge)].map(|v| mesh.source_vertex(v));
+                [a.min(b), a.max(b)]
+            })
+        })
+        .collect();
+    sides.par_sort_unstable();
+    let mut seams = SeamLength::default();
+    for group in sides.chunk_by(|a, b| a == b).filter(|group| group.len() > 1) {
+        let [a, b] = group[0].map(|vertex| polygons.positions[vertex as usize]);
+        seams.edges += 1;
+        seams.length += (b - a).norm();
+    }
+    seams
+}

@@ -1,0 +1,147 @@
+//! What can be chosen, and what can go wrong.
+
+use qembed::qmesh::{BuildError, QuadMesh, Vec3};
+
+use crate::distortion::MeasureError;
+use crate::error::ParameterizeError;
+use crate::pack::PackOptions;
+use crate::parameterize::Options;
+
+/// How large islands are beside each other.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
+pub enum Density {
+    /// All have as many texels for an area in space.
+    #[default]
+    Equal,
+    /// All have the same area in the plane: small parts of a mesh get more texels.
+    PerIsland,
+    /// This many texels for a unit of length in space. What does not fit into the unit square then continues above it.
+    Texels(f64),
+}
+
+/// Which direction in space points up in the map.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum UpAxis {
+    /// The x axis.
+    X,
+    /// The y axis.
+    #[default]
+    Y,
+    /// The z axis.
+    Z,
+}
+
+impl UpAxis {
+    /// Up, and what takes its place where the surface is level: the axis that leads away from a viewer in front.
+    pub(super) fn directions(self) -> [Vec3; 2] {
+        match self {
+            Self::X => [Vec3::x(), -Vec3::z()],
+            Self::Y => [Vec3::y(), -Vec3::z()],
+            Self::Z => [Vec3::z(), Vec3::y()],
+        }
+    }
+}
+
+/// How polygons are unwrapped.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
+pub struct AtlasOptions {
+    /// How each island is mapped. A fixed boundary is for meshes of one island.
+    pub map: Options,
+    /// Whether closed surfaces and handles are cut open by automatic seams. Default true; otherwise they are refused.
+    pub open: bool,
+    /// Cut islands further until 99 % of the area of each stays below this stretch; more than 1. Default `None`.
+    pub max_stretch: Option<f64>,
+    /// Default `Equal`.
+    pub density: Density,
+    /// Turn islands so that this axis points up. `None`, the default: y where there are several islands, none where there is
+    /// one.
+    pub up: Option<UpAxis>,
+    /// How islands are packed.
+    pub pack: PackOptions,
+    /// Leave the islands in their size in space, beside each other, instead of fitting them into the unit square. Default
+    /// false.
+    pub true_scale: bool,
+}
+
+impl Default for AtlasOptions {
+    fn default() -> Self {
+        Self {
+            map: Options::default(),
+            open: true,
+            max_stretch: None,
+            density: Density::Equal,
+            up: None,
+            pack: PackOptions::default(),
+            true_scale: false,
+        }
+    }
+}
+
+/// Why there are no UVs.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AtlasError {
+    /// The observer asked to stop.
+    #[error("cancelled")]
+    Cancelled,
+    /// No charts can be made of the polygons.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// An option of the layout is out of range.
+    #[error("{option} is {value}, but must be {expected}")]
+    BadOption {
+        /// Which one.
+        option: &'static str,
+        /// What it is.
+        value: f64,
+        /// What it may be.
+        expected: &'static str,
+    },
+    /// An option of the map is out of range.
+    #[error(transparent)]
+    Options(ParameterizeError),
+    /// The only island has no map, or an island is closed and may not be cut open.
+    #[error("the island of face {first_face} has no map: {error}")]
+    Island {
+        /// Its first face in the polygons.
+        first_face: u32,
+        /// The island, whose vertices `error` names.
+        mesh: Box<QuadMesh>,
+        /// Why.
+        error: ParameterizeError,
+    },
+    /// The map could not be measured.
+    #[error(transparent)]
+    Measure(#[from] MeasureError),
+}
+
+impl AtlasOptions {
+    pub(super) fn check(&self) -> Result<(), AtlasError> {
+        self.map.check().map_err(AtlasError::Options)?;
+        let refuse = |option, value, expected| Err(AtlasError::BadOption { option, value, expected });
+        if let Some(bound) = self.max_stretch
+            && !(bound > 1.0 && bound.is_finite())
+        {
+            return refuse("the largest stretch", bound, "a number above 1");
+        }
+        if let Density::Texels(texels) = self.density
+            && !(texels > 0.0 && texels.is_finite())
+        {
+            return refuse("the density", texels, "a number above 0");
+        }
+        if !(self.pack.margin >= 0.0 && self.pack.margin.is_finite()) {
+            return refuse("the margin", self.pack.margin, "a number of at least 0");
+        }
+        if self.pack.resolution == 0 {
+            return refuse("the resolution", 0.0, "at least 1");
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,150 @@
+//! A map of every chart.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use qembed::qmesh::obj::UvPrecision;
+use qembed::qmesh::{Chart, CornerData, Observer, Vec2};
+use rayon::prelude::*;
+
+use super::stretch::stretch;
+use super::{AtlasError, AtlasOptions, Island, measures};
+use crate::certificate::Certificate;
+use crate::convexity::Exempt;
+use crate::direct::find_start;
+use crate::distortion::{Distortion, measure};
+use crate::error::ParameterizeError;
+use crate::parameterize::{Method, Options, RunRecord, parameterize};
+
+/// A chart with its map.
+#[derive(Clone, Debug)]
+pub(super) struct Solved {
+    pub(super) chart: Chart,
+    pub(super) uv: CornerData<Vec2>,
+    /// Nothing for a surface of no area.
+    pub(super) distortion: Option<Distortion>,
+    /// The proof, as long as nobody moves the map.
+    pub(super) certificate: Option<Certificate>,
+    pub(super) record: RunRecord,
+    pub(super) fallback: Option<String>,
+}
+
+/// Maps all charts, in parallel and each as if it were alone.
+pub(super) fn all(
+    charts: Vec<Chart>,
+    options: &AtlasOptions,
+    observer: &dyn Observer,
+) -> Result<Vec<Solved>, AtlasError> {
+    if let [_] = &charts[..] {
+        return charts.into_iter().map(|chart| alone(chart, &options.map, observer)).collect();
+    }
+    let map = of_many(options);
+    let shared = Shared { observer, done: AtomicUsize::new(0), total: charts.len() };
+    let solved: Vec<Result<Solved, AtlasError>> = charts
+        .into_par_iter()
+        .map(|chart| {
+            let solved = among_others(chart, &map, &shared);
+            shared.done.fetch_add(1, Ordering::Relaxed);
+            solved
+        })
+        .collect();
+    solved.into_iter().collect()
+}
+
+/// The options of one island of several: what is done to the whole is not done to each.
+pub(super) fn of_many(options: &AtlasOptions) -> Options {
+    Options { normalize: true, precision: UvPrecision::Double, ..options.map.clone() }
+}
+
+/// Hands on the request to stop, and says how many islands are done.
+struct Shared<'a> {
+    observer: &'a dyn Observer,
+    done: AtomicUsize,
+    total: usize,
+}
+
+impl Observer for Shared<'_> {
+    fn progress(&self, _: &'static str, _: f64) -> ControlFlow<()> {
+        self.observer.progress("islands", self.done.load(Ordering::Relaxed) as f64 / self.total as f64)
+    }
+}
+
+/// The only chart: errors are errors.
+fn alone(chart: Chart, options: &Options, observer: &dyn Observer) -> Result<Solved, AtlasError> {
+    match parameterize(&chart.mesh, options, observer) {
+        Ok(map) => Ok(Solved {
+            chart,
+            uv: map.uv,
+            distortion: Some(map.distortion),
+            certificate: Some(map.certificate),
+            record: map.record,
+            fallback: None,
+        }),
+        Err(error) => Err(refusal(chart, error)),
+    }
+}
+
+fn refusal(chart: Chart, error: ParameterizeError) -> AtlasError {
+    if error == ParameterizeError::Cancelled {
+        return AtlasError::Cancelled;
+    }
+    let first_face = chart.faces.first().copied().unwrap_or(0);
+    AtlasError::Island { first_face, mesh: Box::new(chart.mesh), error }
+}
+
+/// One chart of several: what the method cannot do, another one does.
+pub(super) fn among_others(
+    chart: Chart,
+    options: &Options,
+    observer: &dyn Observer,
+) -> Result<Solved, AtlasError> {
+    if let Err(error) = qembed::check_patch(&chart.mesh) {
+        return Err(refusal(chart, error.into()));
+    }
+    let error = match alone(chart.clone(), options, observer) {
+        Err(AtlasError::Island { error, .. }) => error,
+        other => return other,
+    };
+    let direct = Options { method: Method::Direct, ..options.clone() };
+    if options.method != Method::Direct
+        && let Ok(solved) = alone(chart.clone(), &direct, observer)
+    {
+        return Ok(Solved { fallback: Some(error.to_string()), ..solved });
+    }
+    match convex(&chart, observer) {
+        Ok(uv) => {
+            let distortion = measure(chart.mesh.view(), &uv).ok();
+            let (record, fallback) = (RunRecord::default(), Some(error.to_string()));
+            Ok(Solved { chart, uv, distortion, certificate: None, record, fallback })
+        }
+        Err(error) => Err(refusal(chart, error)),
+    }
+}
+
+/// The convex start, which asks nothing of the shape.
+fn convex(chart: &Chart, observer: &dyn Observer) -> Result<CornerData<Vec2>, ParameterizeError> {
+    let filled = chart.mesh.filled();
+    let mesh = filled.as_ref().unwrap_or(&chart.mesh);
+    let start = find_start(mesh, &Exempt::find(mesh), observer)?;
+    Ok(chart.mesh.corner_data(|corner| 0.5 * (start.uv[chart.mesh.vertex(corner)] + Vec2::repeat(1.0))))
+}
+
+impl Solved {
+    pub(super) fn island(self) -> Island {
+        let mesh = &self.chart.mesh;
+        let [area, uv_area] = measures::areas(mesh, &self.uv);
+        Island {
+            first_face: self.chart.faces.first().copied().unwrap_or(0),
+            faces: mesh.face_count(),
+            boundary_loops: mesh.boundary_loops().len(),
+            area,
+            uv_area,
+            stretch: stretch(mesh, &self.uv).quantile,
+            symmetric_dirichlet: self.distortion.as_ref().and_then(|found| found.symmetric_dirichlet),
+            flipped_corners: self.distortion.as_ref().map_or(0, |found| found.flipped_corners),
+            boundary_crossings: self.distortion.as_ref().map_or(0, |found| found.boundary_crossings),
+            fallback: self.fallback,
+            record: self.record,
+        }
+    }
+}

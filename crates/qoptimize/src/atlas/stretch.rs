@@ -1,0 +1,74 @@
+//! How far an island is stretched, and where most.
+
+use qembed::qmesh::{CornerId, QuadMesh, Vec2, VertexId};
+
+/// The share of the area that may be stretched more.
+const TAIL: f64 = 0.01;
+
+/// How far an island is stretched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct StretchMeasure {
+    /// What 99 % of the area stays below; 1 for an isometry.
+    pub quantile: f64,
+    /// The vertex around which stretch is largest, as the area-weighted mean over its corners.
+    pub worst: VertexId,
+}
+
+/// The stretch of an island: at each corner triangle the larger of `s1` and `1/s2`, with `s1 ≥ s2` the singular values of its map
+/// once the island is scaled to its area in space. Twice as long and half as long as it should be count alike. Corner
+/// triangles that are not positive count as infinite.
+#[must_use]
+pub fn stretch(mesh: &QuadMesh, uv: &[Vec2]) -> StretchMeasure {
+    let [space, plane] = super::measures::areas(mesh, uv);
+    let scale = if plane > 0.0 { (space / plane).sqrt() } else { 1.0 };
+    let mut values: Vec<(f64, f64)> = Vec::with_capacity(mesh.corner_count());
+    let mut around = mesh.vertex_data(|_| [0.0f64; 2]);
+    for corner in mesh.corners() {
+        let Some((stretch, area)) = corner_stretch(mesh, uv, corner, scale) else { continue };
+        values.push((stretch, area));
+        let [sum, weight] = &mut around[mesh.vertex(corner)];
+        *sum += stretch.min(1e9) * area;
+        *weight += area;
+    }
+    values.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let total: f64 = values.iter().map(|value| value.1).sum();
+    let mut passed = 0.0;
+    let beyond = values.iter().find(|value| {
+        passed += value.1;
+        passed > TAIL * total
+    });
+    let mean = |[sum, weight]: [f64; 2]| if weight > 0.0 { sum / weight } else { 0.0 };
+    let worst = around.entries().fold((VertexId(0), 0.0), |best, (vertex, &sums)| {
+        if mean(sums) > best.1 { (vertex, mean(sums)) } else { best }
+    });
+    StretchMeasure { quantile: beyond.map_or(1.0, |value| value.0), worst: worst.0 }
+}
+
+/// Stretch and area in space of a corner triangle; nothing when it has no area.
+fn corner_stretch(mesh: &QuadMesh, uv: &[Vec2], corner: CornerId, scale: f64) -> Option<(f64, f64)> {
+    let [a, b] = mesh.corner_vectors(corner);
+    let length = a.norm();
+    if length <= 0.0 {
+        return None;
+    }
+    // The triangle in its own plane: a along x.
+    let along = a.dot(&b) / length;
+    let height = a.cross(&b).norm() / length;
+    let area = 0.5 * length * height;
+    if !(area > 0.0 && height > 1e-9 * b.norm()) {
+        return None;
+    }
+    let here = uv[corner.index()];
+    let [p, q] =
+        [mesh.next_corner(corner), mesh.previous_corner(corner)].map(|c| scale * (uv[c.index()] - here));
+    let first = p / length;
+    let second = (q - first * along) / height;
+    let (squares, det) = (first.norm_squared() + second.norm_squared(), first.perp(&second));
+    if det <= 0.0 {
+        return Some((f64::INFINITY, area));
+    }
+    let root = (squares * squares - 4.0 * det * det).max(0.0).sqrt();
+    let largest = (0.5 * (squares + root)).sqrt();
+    Some((largest.max(largest / det), area))
+}

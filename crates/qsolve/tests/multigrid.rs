@@ -90,7 +90,7 @@ fn sheet(side: usize) -> (BlockMatrix<2>, Vec<[[f64; 3]; 2]>) {
         let own = columns.partition_point(|&w| (w as usize) < v);
         for (at, &w) in columns.iter().enumerate().filter(|(at, _)| *at != own) {
             let [[vx, vy], [wx, wy]] = [place(v), place(w as usize)];
-            let d = [(wx - vx) as f32, (wy - vy) as f32];
+            let d = [wx - vx, wy - vy];
             for i in 0..2 {
                 for j in 0..2 {
                     blocks[at][i][j] -= d[i] * d[j];
@@ -108,7 +108,7 @@ fn sheet(side: usize) -> (BlockMatrix<2>, Vec<[[f64; 3]; 2]>) {
     (matrix, kernel)
 }
 
-const FREE: MultigridOptions = MultigridOptions { strength: 0.0, shift: 1e-6 };
+const FREE: MultigridOptions = MultigridOptions { strength: 0.0, shift: 1e-5, floating: true };
 
 /// A right-hand side without a part in the kernel: what random displacements call for, and noise shows all frequencies.
 fn balanced(matrix: &BlockMatrix<2>) -> Vec<f64> {

@@ -6,14 +6,12 @@ use crate::qmesh::{CornerId, Vec2};
 use rayon::prelude::*;
 
 use super::Objective;
-use super::element::{self, Edges, Element};
-use super::hessian::Hessian;
+use super::element::{self, Edges};
+use super::hessian::{Hessian, Share};
 use super::rest::{Rest, RestCorner};
 
 /// Corners that are summed by one task.
 const CHUNK: usize = 2048;
-/// Corners whose elements are held at once.
-const BLOCK: usize = 64 * CHUNK;
 
 pub(super) fn edges(corner: &RestCorner, uv: &[Vec2]) -> Edges {
     let [here, next, previous] = corner.vertices.map(|v| uv[v as usize]);
@@ -31,7 +29,7 @@ pub(super) fn value(objective: &Objective, rest: &Rest, uv: &[Vec2]) -> f64 {
     sums.iter().sum()
 }
 
-/// Adds the Hessian at `uv` to `hessian` and returns energy and gradient (2 entries a vertex), or the first corner that is not
+/// Fills `hessian` with the Hessian at `uv`; returns energy and gradient (2 entries a vertex), or the first corner that is not
 /// positive.
 pub(super) fn derivatives(
     objective: &Objective,
@@ -39,31 +37,9 @@ pub(super) fn derivatives(
     hessian: &mut Hessian,
     uv: &[Vec2],
 ) -> Result<(f64, Vec<f64>), CornerId> {
-    let mut value = 0.0;
-    let mut gradient = vec![0.0; 2 * rest.vertex_count];
-    hessian.clear();
-    // Blocks of corners, so that the elements never all stand in memory at once.
-    for (block, corners) in rest.corners.chunks(BLOCK).enumerate() {
-        let elements: Vec<Option<Element>> = corners
-            .par_iter()
-            .with_min_len(CHUNK)
-            .map(|corner| element::derivatives(objective, corner, edges(corner, uv)))
-            .collect();
-        for (index, (corner, element)) in corners.iter().zip(&elements).enumerate() {
-            let index = block * BLOCK + index;
-            let element = element.as_ref().ok_or(rest.ids[index])?;
-            value += element.value;
-            add_gradient(&mut gradient, corner, &element.gradient);
-            hessian.add(index, corner.vertices, &element.hessian);
-        }
-    }
-    Ok((value, gradient))
-}
-
-pub(super) fn add_gradient(gradient: &mut [f64], corner: &RestCorner, [f1x, f1y, f0x, f0y]: &Edges) {
-    let [here, next, previous] = corner.vertices.map(|v| 2 * v as usize);
-    for (at, x, y) in [(next, *f1x, *f1y), (previous, *f0x, *f0y), (here, -f1x - f0x, -f1y - f0y)] {
-        gradient[at] += x;
-        gradient[at + 1] += y;
-    }
+    let share = |_, corner: &RestCorner| {
+        let element = element::derivatives(objective, corner, edges(corner, uv))?;
+        Some(Share { value: element.value, gradient: element.gradient, hessian: element.hessian })
+    };
+    hessian.assemble(&rest.corners, share).map_err(|corner| rest.ids[corner])
 }

@@ -25,6 +25,7 @@ mod energy;
 mod held;
 mod hessian;
 mod isotropic;
+mod layout;
 mod newton;
 mod options;
 mod pull;
@@ -33,6 +34,7 @@ mod scaffold;
 mod scale;
 mod start;
 mod step;
+mod system;
 mod untangle;
 
 #[cfg(test)]

@@ -2,12 +2,14 @@
 
 use std::ops::ControlFlow;
 
+use rayon::prelude::*;
+
 use crate::qmesh::{CornerId, Observer, QuadMesh, Vec2, VertexData};
 use crate::qsolve::SolveError;
 
 use super::Objective;
 use super::energy;
-use super::hessian::Hessian;
+use super::hessian::{Accuracy, Hessian, Solved};
 use super::rest::Rest;
 use super::step::first_collapse;
 use crate::convexity::Exempt;
@@ -18,8 +20,18 @@ const COLLAPSE_FRACTION: f64 = 0.9;
 const ARMIJO: f64 = 1e-4;
 /// How much shorter each trial is than the last.
 const SHRINK: f64 = 0.5;
+/// A whole step that lowers the energy by more than this, over its length and the decrement, is tried at twice the length. A
+/// quadratic function gives 1/2, `1/s²` gives 0.66.
+const MORE_THAN_PROMISED: f64 = 0.55;
 /// A shorter step than this fraction of the first trial is no step.
 const SHORTEST: f64 = 1e-9;
+/// The residual, relative, to which Newton systems are solved: less exact solutions cost steps, more exact ones bring nothing.
+const ENOUGH_RESIDUAL: f64 = 0.1;
+/// A decrement that is this many times what would end the descent, or less, is determined to a tenth.
+const DECISIVE: f64 = 4.0;
+/// After a step that was almost whole, and lowered the energy by no more than this, the preconditioner may stay.
+const LAG_STEP: f64 = 0.9;
+const LAG_DECREASE: f64 = 0.01;
 /// Energies are means of squares: below this there is nothing left that `f64` could tell from zero.
 const ENERGY_FLOOR: f64 = 1e-14;
 
@@ -63,6 +75,8 @@ pub enum Stop {
 pub struct Descent {
     /// Steps made.
     pub steps: usize,
+    /// Iterations of conjugate gradients, over all steps; 0 where the Newton systems were factorized.
+    pub iterations: usize,
     /// The energy before the first step.
     pub energy_before: f64,
     /// The energy at the end.
@@ -100,9 +114,11 @@ pub fn minimize(
     for point in uv.iter_mut() {
         *point /= rest.unit;
     }
-    let result = Hessian::new(&rest)
-        .map_err(DescentError::from)
-        .and_then(|mut hessian| descend(&rest, &mut hessian, uv, &objective, options, observer));
+    // From inside the pool, where short parallel loops do not have to wake it first.
+    let result = rayon::scope(|_| {
+        let mut hessian = Hessian::new(&rest)?;
+        descend(&rest, &mut hessian, uv, &objective, options, observer)
+    });
     for point in uv.iter_mut() {
         *point *= rest.unit;
     }
@@ -117,8 +133,14 @@ pub(super) fn descend(
     options: &DescentOptions,
     observer: &dyn Observer,
 ) -> Result<Descent, DescentError> {
-    let mut descent =
-        Descent { steps: 0, energy_before: f64::INFINITY, energy: f64::INFINITY, stop: Stop::MaxSteps };
+    let mut descent = Descent {
+        steps: 0,
+        iterations: 0,
+        energy_before: f64::INFINITY,
+        energy: f64::INFINITY,
+        stop: Stop::MaxSteps,
+    };
+    let mut lagged = false;
     loop {
         let (energy, gradient) =
             energy::derivatives(objective, rest, hessian, uv).map_err(DescentError::InvalidStart)?;
@@ -134,19 +156,49 @@ pub(super) fn descend(
             return Ok(Descent { stop: Stop::Cancelled, ..descent });
         }
         let gradient = rest.constraint.restrict(hessian, gradient);
-        let (mut direction, decrement) = hessian.newton_direction(&gradient)?;
+        let least = options.relative_decrease * energy + ENERGY_FLOOR;
+        let accuracy = Accuracy { residual: ENOUGH_RESIDUAL, decisive: DECISIVE * 2.0 * least };
+        let solved = match hessian.newton_direction(uv, &gradient, accuracy, lagged) {
+            Ok(solved) => solved,
+            Err(error) if hessian.is_factored() => return Err(error),
+            Err(_) => {
+                hessian.factorize()?;
+                continue;
+            }
+        };
+        descent.iterations += solved.iterations;
+        let Solved { mut direction, decrement, missing, .. } = solved;
         let decrement = rest.constraint.project(&mut direction, &gradient, decrement);
-        if 0.5 * decrement <= options.relative_decrease * energy + ENERGY_FLOOR {
+        if 0.5 * (decrement + missing) <= least {
             return Ok(Descent { stop: Stop::Converged, ..descent });
         }
-        if !line_search(rest, uv, objective, &direction, energy, decrement) {
-            return Ok(Descent { stop: Stop::Stalled, ..descent });
+        match line_search(rest, uv, objective, &direction, energy, decrement) {
+            Some(moved) => {
+                let fell = (energy - moved.energy) / energy;
+                lagged = moved.step >= LAG_STEP && fell <= LAG_DECREASE;
+            }
+            // A direction from an old preconditioner may be a poor one.
+            None if lagged => {
+                lagged = false;
+                continue;
+            }
+            None => return Ok(Descent { stop: Stop::Stalled, ..descent }),
         }
         descent.steps += 1;
     }
 }
 
-/// Moves along `direction` as far as the energy falls enough; whether it moved.
+/// A step that was made.
+struct Moved {
+    /// 1: the whole direction.
+    step: f64,
+    energy: f64,
+}
+
+/// Moves along `direction` as far as the energy falls enough, if it does.
+///
+/// Where squeezed corners make up the energy, it falls by more than the quadratic model promises, and several steps in the same
+/// direction would follow: so a whole step is doubled while that pays.
 fn line_search(
     rest: &Rest,
     uv: &mut [Vec2],
@@ -154,21 +206,36 @@ fn line_search(
     direction: &[Vec2],
     energy_here: f64,
     decrement: f64,
-) -> bool {
-    let longest = (COLLAPSE_FRACTION * first_collapse(rest, uv, direction)).min(1.0);
+) -> Option<Moved> {
+    let limit = COLLAPSE_FRACTION * first_collapse(rest, uv, direction);
+    let longest = limit.min(1.0);
+    let mut trial = vec![Vec2::zeros(); uv.len()];
+    let mut energy_at = |step: f64| {
+        let moves = trial.par_iter_mut().with_min_len(8192).zip(&*uv).zip(direction);
+        moves.for_each(|((to, from), along)| *to = from + along * step);
+        energy::value(objective, rest, &trial)
+    };
+    // Both energies may be infinite at the start: then the comparison is false, as it should be.
+    let falls_enough = |step: f64, energy: f64| energy <= energy_here - ARMIJO * step * decrement;
     let mut step = longest;
-    let mut trial = uv.to_vec();
-    while step >= SHORTEST * longest && step > 0.0 {
-        for ((to, from), along) in trial.iter_mut().zip(uv.iter()).zip(direction) {
-            *to = from + along * step;
+    let mut energy = energy_at(step);
+    if falls_enough(step, energy) {
+        while energy_here - energy > MORE_THAN_PROMISED * step * decrement && 2.0 * step <= limit {
+            let further = energy_at(2.0 * step);
+            if !falls_enough(2.0 * step, further) || further >= energy {
+                break;
+            }
+            (step, energy) = (2.0 * step, further);
         }
-        let energy_there = energy::value(objective, rest, &trial);
-        // Both may be infinite at the start: then the comparison is false, as it should be.
-        if energy_there <= energy_here - ARMIJO * step * decrement {
-            uv.copy_from_slice(&trial);
-            return true;
+    } else {
+        while !falls_enough(step, energy) {
+            step *= SHRINK;
+            if step < SHORTEST * longest || step <= 0.0 {
+                return None;
+            }
+            energy = energy_at(step);
         }
-        step *= SHRINK;
     }
-    false
+    uv.par_iter_mut().with_min_len(8192).zip(direction).for_each(|(p, along)| *p += along * step);
+    Some(Moved { step, energy })
 }

@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use rayon::prelude::*;
 
 use super::energy::edges;
-use super::hessian::Hessian;
+use super::hessian::{Accuracy, Hessian, Share, Solved};
 use super::rest::{Rest, RestCorner};
 use super::{DescentError, StartError};
 use crate::qmesh::{Observer, QuadMesh, Vec2};
@@ -35,6 +35,7 @@ pub(super) fn untangle(
     let side = square_side(mesh, uv);
     let fixed: Vec<bool> = mesh.vertices().map(|vertex| mesh.is_boundary(vertex)).collect();
     let mut hessian = Hessian::new(rest)?;
+    hessian.factorize()?;
     let mut epsilon = 1.0;
     for step in 0..MAX_STEPS {
         if let ControlFlow::Break(()) = observer.progress("untangle", step as f64 / MAX_STEPS as f64) {
@@ -44,7 +45,8 @@ pub(super) fn untangle(
         let before = barrier.value(rest, uv);
         let gradient = barrier.derivatives(rest, uv, &mut hessian);
         let gradient = hessian.fix(&fixed, gradient);
-        let (direction, decrement) = hessian.newton_direction(&gradient).map_err(solve_error)?;
+        let solved = hessian.newton_direction(uv, &gradient, Accuracy::DIRECTION, false);
+        let Solved { direction, decrement, .. } = solved.map_err(solve_error)?;
         let after = barrier.search(rest, uv, &direction, before, decrement);
         let smallest = barrier.smallest_determinant(rest, uv);
         if smallest > GOOD_DETERMINANT {
@@ -122,14 +124,11 @@ impl Barrier {
     /// With N = |J| and D = det the energy is g(N, D) and its Hessian `g_N/N · (1 − n nᵀ)` and the 2 × 2 Hessian of g in the
     /// directions n and ∇D, made positive semidefinite; the second derivative of D is left out.
     fn derivatives(&self, rest: &Rest, uv: &[Vec2], hessian: &mut Hessian) -> Vec<f64> {
-        let mut gradient = vec![0.0; 2 * rest.vertex_count];
-        hessian.clear();
-        for (index, corner) in rest.corners.iter().enumerate() {
-            let (slope, curvature) = self.corner(self.jacobian(corner, uv));
-            super::energy::add_gradient(&mut gradient, corner, &slope);
-            hessian.add(index, corner.vertices, &curvature);
-        }
-        gradient
+        let share = |_, corner: &RestCorner| {
+            let (gradient, hessian) = self.corner(self.jacobian(corner, uv));
+            Some(Share { value: 0.0, gradient, hessian })
+        };
+        hessian.assemble(&rest.corners, share).map_or_else(|_| Vec::new(), |(_, gradient)| gradient)
     }
 
     fn corner(&self, j: [f64; 4]) -> ([f64; 4], [f64; 10]) {

@@ -17,11 +17,11 @@ pub(super) enum Strong {
 
 impl Strong {
     /// `‖aᵢⱼ‖² > θ² ‖aᵢᵢ‖ ‖aⱼⱼ‖` [Vaněk, Mandel, Brezina 1996]; with θ = 0 everything in the pattern.
-    pub(super) fn new<const B: usize>(matrix: &BlockMatrix<B>, theta: f32) -> Self {
+    pub(super) fn new<const B: usize>(matrix: &BlockMatrix<B>, theta: f64) -> Self {
         if theta <= 0.0 {
             return Self::All;
         }
-        let size: Vec<f32> = (0..matrix.rows()).map(|row| square(&matrix.diagonal(row)).sqrt()).collect();
+        let size: Vec<f64> = (0..matrix.rows()).map(|row| square(&matrix.diagonal(row)).sqrt()).collect();
         let mut flags = Vec::with_capacity(matrix.columns.len());
         for row in 0..matrix.rows() {
             let (columns, blocks) = matrix.row(row);

@@ -7,7 +7,7 @@ use crate::factors::{Analysis, Factors};
 use crate::{SolveError, Structure};
 
 /// What is added to the diagonal, relative to it, when rounding took the definiteness of a singular matrix.
-const SHIFTS: [f64; 3] = [1e-6, 1e-4, 1e-2];
+const SHIFTS: [f64; 4] = [1e-6, 1e-4, 1e-2, 1.0];
 
 #[derive(Debug)]
 pub(super) struct Coarsest<const C: usize> {
@@ -54,7 +54,7 @@ impl<const C: usize> Coarsest<C> {
                         let column = number as usize * C + l;
                         let factor = if column == row * C + k { 1.0 + shift } else { 1.0 };
                         columns.push(column);
-                        values.push(factor * f64::from(value));
+                        values.push(factor * value);
                     }
                 }
                 offsets.push(columns.len());
@@ -64,13 +64,13 @@ impl<const C: usize> Coarsest<C> {
             .expect("block columns ascend, and so do the columns within them")
     }
 
-    pub(super) fn solve(&self, b: &[[f32; C]], x: &mut [[f32; C]]) {
+    pub(super) fn solve(&self, b: &[[f64; C]], x: &mut [[f64; C]]) {
         let (Some(analysis), Some(factors)) = (&self.analysis, &self.factors) else { return };
-        let mut exact: Vec<f64> = b.iter().flatten().map(|&b| f64::from(b)).collect();
+        let mut exact: Vec<f64> = b.iter().flatten().copied().collect();
         // Without memory for a vector this stays the right-hand side, and the iterations around take longer.
         let _ = analysis.solve_in_place(factors, &mut exact);
         for (x, exact) in x.iter_mut().flatten().zip(exact) {
-            *x = exact as f32;
+            *x = exact;
         }
     }
 }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::aggregate::NONE;
-use super::block::{Block, Exact, narrowed};
+use super::block::Block;
 
 /// A column of the near-kernel whose part outside the others is below this fraction (of squares) is left out.
 const DEPENDENT: f64 = 1e-12;
@@ -13,12 +13,12 @@ pub(super) struct Tentative<const F: usize, const C: usize> {
     /// `T`, one block a row; it stands in the column of the row's aggregate.
     pub(super) blocks: Vec<Block<F, C>>,
     /// The near-kernel of the next level.
-    pub(super) coarse: Vec<Exact<C, C>>,
+    pub(super) coarse: Vec<Block<C, C>>,
 }
 
 impl<const F: usize, const C: usize> Tentative<F, C> {
-    pub(super) fn new(kernel: &[Exact<F, C>], aggregate: &[u32], members: &Members) -> Self {
-        let factors: Vec<(Exact<C, C>, Exact<C, C>)> = (0..members.count())
+    pub(super) fn new(kernel: &[Block<F, C>], aggregate: &[u32], members: &Members) -> Self {
+        let factors: Vec<(Block<C, C>, Block<C, C>)> = (0..members.count())
             .into_par_iter()
             .with_min_len(256)
             .map(|number| orthonormalize(members.of(number).iter().map(|&row| &kernel[row as usize])))
@@ -27,13 +27,11 @@ impl<const F: usize, const C: usize> Tentative<F, C> {
             .par_iter()
             .with_min_len(1024)
             .zip(aggregate)
-            .map(|(kernel, &number)| {
-                if number == NONE {
-                    [[0.0; C]; F]
-                } else {
-                    narrowed(&times(kernel, &factors[number as usize].1))
-                }
-            })
+            .map(
+                |(kernel, &number)| {
+                    if number == NONE { [[0.0; C]; F] } else { times(kernel, &factors[number as usize].1) }
+                },
+            )
             .collect();
         Self { blocks, coarse: factors.into_iter().map(|(coarse, _)| coarse).collect() }
     }
@@ -41,8 +39,8 @@ impl<const F: usize, const C: usize> Tentative<F, C> {
 
 /// `R` and the inverse with which `B = Q R`, `QᵀQ = 1`. A dependent column of `Q` is zero, and so is its row of `R`.
 fn orthonormalize<'a, const F: usize, const C: usize>(
-    blocks: impl Iterator<Item = &'a Exact<F, C>>,
-) -> (Exact<C, C>, Exact<C, C>) {
+    blocks: impl Iterator<Item = &'a Block<F, C>>,
+) -> (Block<C, C>, Block<C, C>) {
     let mut gram = [[0.0; C]; C];
     for block in blocks {
         for row in block {
@@ -68,7 +66,7 @@ fn orthonormalize<'a, const F: usize, const C: usize>(
 }
 
 /// With zeros for the rows and columns that have no pivot.
-fn inverse_of_upper<const C: usize>(r: &Exact<C, C>) -> Exact<C, C> {
+fn inverse_of_upper<const C: usize>(r: &Block<C, C>) -> Block<C, C> {
     let mut inverse = [[0.0; C]; C];
     for column in 0..C {
         if r[column][column] == 0.0 {
@@ -85,7 +83,7 @@ fn inverse_of_upper<const C: usize>(r: &Exact<C, C>) -> Exact<C, C> {
     inverse
 }
 
-fn times<const F: usize, const C: usize>(a: &Exact<F, C>, b: &Exact<C, C>) -> Exact<F, C> {
+fn times<const F: usize, const C: usize>(a: &Block<F, C>, b: &Block<C, C>) -> Block<F, C> {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..C).map(|k| a[i][k] * b[k][j]).sum()))
 }
 

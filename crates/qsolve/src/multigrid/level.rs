@@ -3,9 +3,7 @@
 use rayon::prelude::*;
 
 use super::aggregate::{NONE, Strong, aggregate};
-use super::block::{
-    Block, Exact, add_product, add_times, add_transposed_product, add_transposed_times, inverse,
-};
+use super::block::{Block, add_product, add_times, add_transposed_product, add_transposed_times, inverse};
 use super::kernel::{Members, Tentative};
 use super::matrix::{BlockMatrix, MIN_ROWS, for_each_row};
 use super::pattern::{Pattern, Transposed};
@@ -13,7 +11,7 @@ use super::smoother::Smoother;
 use crate::SolveError;
 
 /// How far the prolongation is smoothed, over the largest eigenvalue [Vaněk, Mandel, Brezina 1996].
-const DAMPING: f32 = 4.0 / 3.0;
+const DAMPING: f64 = 4.0 / 3.0;
 
 /// A level whose rows have `F` unknowns, and `C` in the next coarser one.
 #[derive(Clone, Debug)]
@@ -33,7 +31,7 @@ pub(super) struct Level<const F: usize, const C: usize> {
 
 impl<const F: usize, const C: usize> Level<F, C> {
     /// Chooses aggregates by pattern and strength; nothing is computed from the values yet.
-    pub(super) fn new(matrix: BlockMatrix<F>, theta: f32) -> Self {
+    pub(super) fn new(matrix: BlockMatrix<F>, theta: f64) -> Self {
         let strong = Strong::new(&matrix, theta);
         let (aggregate, count) = aggregate(&matrix, &strong);
         let members = Members::new(&aggregate, count);
@@ -54,9 +52,9 @@ impl<const F: usize, const C: usize> Level<F, C> {
     /// Everything that depends on values: smoother, prolongation, the next level's matrix and its near-kernel.
     pub(super) fn refresh(
         &mut self,
-        kernel: &[Exact<F, C>],
+        kernel: &[Block<F, C>],
         coarse: &mut BlockMatrix<C>,
-    ) -> Result<Vec<Exact<C, C>>, SolveError> {
+    ) -> Result<Vec<Block<C, C>>, SolveError> {
         self.smoother.refresh(&self.matrix)?;
         let tentative = Tentative::new(kernel, &self.aggregate, &self.members);
         self.smooth_prolongation(&tentative.blocks);
@@ -103,7 +101,7 @@ impl<const F: usize, const C: usize> Level<F, C> {
     }
 
     /// `Pᵀ A P`; a direction that an aggregate does not have gets a diagonal of one.
-    fn galerkin(&self, coarse: &mut BlockMatrix<C>, kernel: &[Exact<C, C>]) {
+    fn galerkin(&self, coarse: &mut BlockMatrix<C>, kernel: &[Block<C, C>]) {
         let product = self.product_values();
         coarse.fill_rows(|row, columns, blocks| {
             blocks.fill([[0.0; C]; C]);
@@ -145,7 +143,7 @@ impl<const F: usize, const C: usize> Level<F, C> {
     }
 
     /// `coarse = Pᵀ r`.
-    pub(super) fn restrict(&self, r: &[[f32; F]], coarse: &mut [[f32; C]]) {
+    pub(super) fn restrict(&self, r: &[[f64; F]], coarse: &mut [[f64; C]]) {
         coarse.par_iter_mut().with_min_len(MIN_ROWS / 4).enumerate().for_each(|(row, to)| {
             let mut sum = [0.0; C];
             for &(fine, at) in self.transposed.row(row) {
@@ -156,7 +154,7 @@ impl<const F: usize, const C: usize> Level<F, C> {
     }
 
     /// `x += P coarse`.
-    pub(super) fn prolong(&self, coarse: &[[f32; C]], x: &mut [[f32; F]]) {
+    pub(super) fn prolong(&self, coarse: &[[f64; C]], x: &mut [[f64; F]]) {
         x.par_iter_mut().with_min_len(MIN_ROWS).enumerate().for_each(|(row, x)| {
             let first = self.pattern.starts[row] as usize;
             for (offset, &number) in self.pattern.row(row).iter().enumerate() {

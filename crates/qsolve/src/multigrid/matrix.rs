@@ -5,10 +5,10 @@ use std::ops::Range;
 use nalgebra_sparse::CsrMatrix;
 use rayon::prelude::*;
 
-use super::block::Block;
+use super::block::{Block, add_times};
 use crate::SolveError;
 
-/// A symmetric sparse matrix of `B × B` blocks in single precision: of each block row, the columns ascending.
+/// A symmetric sparse matrix of `B × B` blocks: of each block row, the columns ascending.
 #[derive(Clone, Debug)]
 pub struct BlockMatrix<const B: usize> {
     pub(super) starts: Vec<u32>,
@@ -67,6 +67,18 @@ impl<const B: usize> BlockMatrix<B> {
         });
     }
 
+    /// As [`BlockMatrix::fill_rows`], with something to work in that is made once for many rows.
+    pub fn fill_rows_with<S>(
+        &mut self,
+        scratch: impl Fn() -> S + Sync,
+        fill: impl Fn(&mut S, usize, &[u32], &mut [Block<B, B>]) + Sync,
+    ) {
+        let (starts, columns) = (&self.starts, &self.columns);
+        for_each_row_with(starts, &mut self.values, scratch, |scratch, row, values| {
+            fill(scratch, row, &columns[starts[row] as usize..starts[row + 1] as usize], values);
+        });
+    }
+
     /// The diagonal block of a row.
     #[must_use]
     pub fn diagonal(&self, row: usize) -> Block<B, B> {
@@ -74,7 +86,7 @@ impl<const B: usize> BlockMatrix<B> {
         columns.binary_search(&(row as u32)).map_or([[0.0; B]; B], |at| values[at])
     }
 
-    /// `y = A x` in double precision; `x` and `y` have `B` entries a block row.
+    /// `y = A x`; `x` and `y` have `B` entries a block row.
     pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
         let x = x.as_chunks::<B>().0;
         let y = y.as_chunks_mut::<B>().0;
@@ -82,12 +94,7 @@ impl<const B: usize> BlockMatrix<B> {
             let (columns, blocks) = self.row(row);
             let mut sum = [0.0; B];
             for (&column, block) in columns.iter().zip(blocks) {
-                let x = &x[column as usize];
-                for (sum, row) in sum.iter_mut().zip(block) {
-                    for (a, x) in row.iter().zip(x) {
-                        *sum += f64::from(*a) * x;
-                    }
-                }
+                add_times(&mut sum, block, &x[column as usize]);
             }
             *y = sum;
         });
@@ -95,7 +102,7 @@ impl<const B: usize> BlockMatrix<B> {
 }
 
 impl BlockMatrix<1> {
-    /// Each entry rounded to single precision.
+    /// The same matrix.
     pub(crate) fn from_csr(matrix: &CsrMatrix<f64>) -> Result<Self, SolveError> {
         let (offsets, columns, values) = matrix.csr_data();
         if matrix.nnz() >= u32::MAX as usize {
@@ -103,14 +110,9 @@ impl BlockMatrix<1> {
         }
         let starts = offsets.iter().map(|&start| start as u32).collect();
         let columns = columns.iter().map(|&column| column as u32).collect();
-        let mut rounded = Self::zeros(starts, columns)?;
-        // One power of two for all, so that neither large nor small matrices leave the range of single precision.
-        let largest = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-        let scale = if largest > 0.0 { (-largest.log2().round()).clamp(-1000.0, 1000.0).exp2() } else { 1.0 };
-        rounded.values.par_iter_mut().with_min_len(1 << 14).zip(values).for_each(|(to, &value)| {
-            *to = [[(scale * value) as f32]];
-        });
-        Ok(rounded)
+        let mut blocks = Self::zeros(starts, columns)?;
+        blocks.values.iter_mut().zip(values).for_each(|(to, &value)| *to = [[value]]);
+        Ok(blocks)
     }
 }
 
@@ -119,6 +121,15 @@ pub(super) const MIN_ROWS: usize = 512;
 
 /// Runs `act(row, values of the row)` for all rows, in parallel.
 pub(super) fn for_each_row<T: Send>(starts: &[u32], values: &mut [T], act: impl Fn(usize, &mut [T]) + Sync) {
+    for_each_row_with(starts, values, || (), |(), row, values| act(row, values));
+}
+
+fn for_each_row_with<T: Send, S>(
+    starts: &[u32],
+    values: &mut [T],
+    scratch: impl Fn() -> S + Sync,
+    act: impl Fn(&mut S, usize, &mut [T]) + Sync,
+) {
     const ROWS: usize = 2048;
     let rows = starts.len() - 1;
     let mut chunks = Vec::with_capacity(rows / ROWS + 1);
@@ -130,9 +141,10 @@ pub(super) fn for_each_row<T: Send>(starts: &[u32], values: &mut [T], act: impl 
         rest = tail;
     }
     chunks.into_par_iter().for_each(|(range, mut chunk)| {
+        let mut scratch = scratch();
         for row in range {
             let (values, tail) = chunk.split_at_mut((starts[row + 1] - starts[row]) as usize);
-            act(row, values);
+            act(&mut scratch, row, values);
             chunk = tail;
         }
     });

@@ -3,7 +3,9 @@
 //! After [Vaněk, Mandel, Brezina 1996, "Algebraic multigrid by smoothed aggregation"]: neighbouring rows are joined to
 //! aggregates, which carry a given near-kernel (what the smoother does not see: constants for a Laplacian; for a system with two
 //! unknowns a row, both translations and the rotation) to the next level, through basis functions that one Jacobi step smooths.
-//! The levels are in single precision, the iterations around them are not, so the accuracy that is reached does not suffer.
+//!
+//! All levels are in double precision: where rows differ by 1e8, as where a map is squeezed, sums over aggregates cancel, and
+//! in single precision a coarse matrix of such a system was no longer positive definite.
 //!
 //! Where blocks stand is found once; new values of the same pattern cost a fraction of it ([`Multigrid::refresh`]). The same
 //! input gives the same bits for any number of threads.
@@ -48,15 +50,18 @@ pub struct MultigridOptions {
     /// A coupling is strong when its norm is above this fraction of the geometric mean of the two diagonal blocks; halved from
     /// level to level. Only strong couplings join aggregates. 0: whatever the pattern has, which is then the same for all
     /// values. Default 0.08.
-    pub strength: f32,
+    pub strength: f64,
     /// Added to the diagonal of the coarsest level, relative to it. Above 0 for a matrix that is singular but for rounding.
     /// Default 0.
     pub shift: f64,
+    /// Whether the matrix maps constants (of each unknown) to zero, as for a body that nothing holds. They are then kept out of
+    /// residual and answer, where rounding would make much of them. Default false.
+    pub floating: bool,
 }
 
 impl Default for MultigridOptions {
     fn default() -> Self {
-        Self { strength: 0.08, shift: 0.0 }
+        Self { strength: 0.08, shift: 0.0, floating: false }
     }
 }
 
@@ -101,7 +106,7 @@ impl<const F: usize, const C: usize> Multigrid<F, C> {
         Ok(Self { options, finest, coarser, coarsest, spare: Mutex::default() })
     }
 
-    /// The matrix, rounded to single precision.
+    /// The matrix.
     #[must_use]
     pub fn matrix(&self) -> &BlockMatrix<F> {
         &self.finest.matrix
@@ -140,21 +145,28 @@ impl<const F: usize, const C: usize> Multigrid<F, C> {
         coarsest.refresh(self.options.shift)
     }
 
+    /// Computes only the finest level's smoother anew, for values that have changed little: a preconditioner that is a little
+    /// worse, for a fraction of the work.
+    ///
+    /// # Errors
+    /// [`SolveError::NotPositiveDefinite`] where a diagonal block is not.
+    pub fn refresh_finest(&mut self) -> Result<(), SolveError> {
+        self.finest.smoother.invert(&self.finest.matrix)
+    }
+
     /// `z ≈ A⁻¹ r` by one V-cycle, a symmetric positive definite operation; `F` entries a row.
     pub fn apply(&self, r: &[f64], z: &mut [f64]) {
-        let largest = r.par_iter().with_min_len(1 << 14).map(|r| r.abs()).reduce(|| 0.0, f64::max);
-        if !(largest > 0.0 && largest.is_finite()) {
-            z.fill(0.0);
-            return;
-        }
         let spare = self.spare.lock().ok().and_then(|mut spare| spare.pop());
         let mut work = spare.unwrap_or_else(|| Work::new(self));
-        let b = r.as_chunks::<F>().0.par_iter().with_min_len(1 << 12);
-        // Single precision has a short range: the residual is brought to about one.
-        b.zip(&mut work.fine.b).for_each(|(r, b)| *b = r.map(|r| (r / largest) as f32));
+        let r = r.as_chunks::<F>().0;
+        let middle = if self.options.floating { mean(r) } else { [0.0; F] };
+        let b = work.fine.b.par_iter_mut().with_min_len(1 << 12).zip(r);
+        b.for_each(|(b, r)| *b = std::array::from_fn(|k| r[k] - middle[k]));
         cycle(&self.finest, &self.coarser, &self.coarsest, &mut work.fine, &mut work.coarse);
-        let z = z.as_chunks_mut::<F>().0.par_iter_mut().with_min_len(1 << 12);
-        z.zip(&work.fine.x).for_each(|(z, x)| *z = x.map(|x| f64::from(x) * largest));
+        let z = z.as_chunks_mut::<F>().0;
+        let middle = if self.options.floating { mean(&work.fine.x) } else { [0.0; F] };
+        let z = z.par_iter_mut().with_min_len(1 << 12).zip(&work.fine.x);
+        z.for_each(|(z, x)| *z = std::array::from_fn(|k| x[k] - middle[k]));
         if let Ok(mut spare) = self.spare.lock() {
             spare.push(work);
         }
@@ -179,12 +191,19 @@ fn check_kernel<const F: usize, const C: usize>(
     if expected == found { Ok(()) } else { Err(SolveError::WrongRightHandSide { expected, found }) }
 }
 
+/// In chunks of fixed size, so that the sum does not depend on the number of threads.
+fn mean<const F: usize>(x: &[[f64; F]]) -> [f64; F] {
+    let add = |sum: [f64; F], x: &[f64; F]| std::array::from_fn(|k| sum[k] + x[k]);
+    let sums: Vec<[f64; F]> = x.par_chunks(8192).map(|chunk| chunk.iter().fold([0.0; F], add)).collect();
+    sums.iter().fold([0.0; F], add).map(|sum| sum / x.len() as f64)
+}
+
 /// The vectors of one level.
 #[derive(Debug)]
 struct Vectors<const N: usize> {
-    b: Vec<[f32; N]>,
-    x: Vec<[f32; N]>,
-    r: Vec<[f32; N]>,
+    b: Vec<[f64; N]>,
+    x: Vec<[f64; N]>,
+    r: Vec<[f64; N]>,
 }
 
 impl<const N: usize> Vectors<N> {

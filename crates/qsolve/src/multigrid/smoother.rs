@@ -13,7 +13,7 @@ use crate::SolveError;
 /// Steps of the power iteration, the first time and when values are refreshed.
 const POWER_STEPS: [usize; 2] = [12, 2];
 /// The power iteration approaches the eigenvalue from below.
-const POWER_MARGIN: f32 = 1.05;
+const POWER_MARGIN: f64 = 1.05;
 
 #[derive(Clone, Debug)]
 pub(super) struct Smoother<const F: usize> {
@@ -22,10 +22,10 @@ pub(super) struct Smoother<const F: usize> {
     /// Inverses of the diagonal with its excess.
     inverse: Vec<Block<F, F>>,
     /// What was added to the diagonal.
-    excess: Vec<f32>,
+    excess: Vec<f64>,
     /// Iterate of the power iteration, and what it told.
-    vector: Vec<[f32; F]>,
-    eigenvalue: f32,
+    vector: Vec<[f64; F]>,
+    eigenvalue: f64,
 }
 
 impl<const F: usize> Smoother<F> {
@@ -34,8 +34,15 @@ impl<const F: usize> Smoother<F> {
         Self { chunk, inverse: Vec::new(), excess: Vec::new(), vector: Vec::new(), eigenvalue: 0.0 }
     }
 
+    /// Inverts the diagonal, and estimates the largest eigenvalue anew.
     pub(super) fn refresh(&mut self, matrix: &BlockMatrix<F>) -> Result<(), SolveError> {
-        let inverted: Vec<Option<(Block<F, F>, f32)>> = (0..matrix.rows())
+        self.invert(matrix)?;
+        self.iterate_power(matrix);
+        Ok(())
+    }
+
+    pub(super) fn invert(&mut self, matrix: &BlockMatrix<F>) -> Result<(), SolveError> {
+        let inverted: Vec<Option<(Block<F, F>, f64)>> = (0..matrix.rows())
             .into_par_iter()
             .with_min_len(MIN_ROWS)
             .map(|row| {
@@ -52,20 +59,19 @@ impl<const F: usize> Smoother<F> {
             self.inverse.push(inverse);
             self.excess.push(excess);
         }
-        self.iterate_power(matrix);
         Ok(())
     }
 
-    fn excess_of(&self, matrix: &BlockMatrix<F>, row: usize) -> f32 {
+    fn excess_of(&self, matrix: &BlockMatrix<F>, row: usize) -> f64 {
         let first = row / self.chunk * self.chunk;
         let (columns, blocks) = matrix.row(row);
         let outside = |column: u32| !(first..first + self.chunk).contains(&(column as usize));
         let norms = columns.iter().zip(blocks).filter(|(column, _)| outside(**column));
-        0.5 * norms.map(|(_, block)| square(block).sqrt()).sum::<f32>()
+        0.5 * norms.map(|(_, block)| square(block).sqrt()).sum::<f64>()
     }
 
     /// About the largest eigenvalue of `D⁻¹ A`.
-    pub(super) fn largest_eigenvalue(&self) -> f32 {
+    pub(super) fn largest_eigenvalue(&self) -> f64 {
         self.eigenvalue
     }
 
@@ -75,13 +81,13 @@ impl<const F: usize> Smoother<F> {
             // Neighbours differ, and nothing repeats: any oscillation has its share.
             let entry = |row: usize, k: usize| {
                 let hash = (row * F + k + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 40;
-                hash as f32 / (1 << 24) as f32 - 0.5
+                hash as f64 / (1 << 24) as f64 - 0.5
             };
             self.vector = (0..matrix.rows()).map(|row| std::array::from_fn(|k| entry(row, k))).collect();
         }
         for _ in 0..POWER_STEPS[usize::from(!fresh)] {
             let x = &self.vector;
-            let mut y: Vec<[f32; F]> = (0..matrix.rows())
+            let mut y: Vec<[f64; F]> = (0..matrix.rows())
                 .into_par_iter()
                 .with_min_len(MIN_ROWS)
                 .map(|row| {
@@ -99,8 +105,8 @@ impl<const F: usize> Smoother<F> {
             if !(length > 0.0 && length.is_finite()) {
                 break;
             }
-            self.eigenvalue = (length / norm(x)) as f32 * POWER_MARGIN;
-            let scale = (1.0 / length) as f32;
+            self.eigenvalue = length / norm(x) * POWER_MARGIN;
+            let scale = 1.0 / length;
             y.par_iter_mut().with_min_len(MIN_ROWS).for_each(|y| y.iter_mut().for_each(|y| *y *= scale));
             self.vector = y;
         }
@@ -108,7 +114,7 @@ impl<const F: usize> Smoother<F> {
     }
 
     /// `x = (D + L)⁻¹ b`, L below the diagonal within each chunk.
-    pub(super) fn forward(&self, matrix: &BlockMatrix<F>, b: &[[f32; F]], x: &mut [[f32; F]]) {
+    pub(super) fn forward(&self, matrix: &BlockMatrix<F>, b: &[[f64; F]], x: &mut [[f64; F]]) {
         x.par_chunks_mut(self.chunk).enumerate().for_each(|(number, x)| {
             let first = number * self.chunk;
             for place in 0..x.len() {
@@ -132,7 +138,7 @@ impl<const F: usize> Smoother<F> {
     }
 
     /// `r = b − A x` for what [`Smoother::forward`] made of `b`: most of the sum is known to vanish.
-    pub(super) fn residual(&self, matrix: &BlockMatrix<F>, x: &[[f32; F]], r: &mut [[f32; F]]) {
+    pub(super) fn residual(&self, matrix: &BlockMatrix<F>, x: &[[f64; F]], r: &mut [[f64; F]]) {
         r.par_chunks_mut(self.chunk).enumerate().for_each(|(number, r)| {
             let first = number * self.chunk;
             for (place, r) in r.iter_mut().enumerate() {
@@ -154,9 +160,9 @@ impl<const F: usize> Smoother<F> {
     pub(super) fn backward(
         &self,
         matrix: &BlockMatrix<F>,
-        b: &[[f32; F]],
-        old: &[[f32; F]],
-        x: &mut [[f32; F]],
+        b: &[[f64; F]],
+        old: &[[f64; F]],
+        x: &mut [[f64; F]],
     ) {
         x.par_chunks_mut(self.chunk).enumerate().for_each(|(number, x)| {
             let first = number * self.chunk;
@@ -176,8 +182,8 @@ impl<const F: usize> Smoother<F> {
 }
 
 /// In chunks of fixed size, so that the sum does not depend on the number of threads.
-fn norm<const F: usize>(x: &[[f32; F]]) -> f64 {
-    let chunk = |x: &[[f32; F]]| x.iter().flatten().map(|&x| f64::from(x) * f64::from(x)).sum::<f64>();
+fn norm<const F: usize>(x: &[[f64; F]]) -> f64 {
+    let chunk = |x: &[[f64; F]]| x.iter().flatten().map(|x| x * x).sum::<f64>();
     let sums: Vec<f64> = x.par_chunks(8192).map(chunk).collect();
     sums.iter().sum::<f64>().sqrt()
 }

@@ -93,17 +93,15 @@ struct Run<'a> {
 
 impl Run<'_> {
     fn free(&self, objective: &Objective) -> Result<(Map, DirectReport), ParameterizeError> {
-        let mut start = self.start()?;
+        let start = self.start()?;
         let rest = Rest::new(self.mesh, &self.exempt);
-        // The unit is a power of two, so neither division nor multiplication rounds.
-        start.uv.iter_mut().for_each(|p| *p /= rest.unit);
-        to_best_scale(&rest, self.objective, &mut start.uv);
-        start.uv.iter_mut().for_each(|p| *p *= rest.unit);
         let mut uv = start.uv.clone();
         let descent = minimize(self.mesh, &mut uv, &self.exempt, objective, self.options, self.observer)?;
         let in_units = |uv: &VertexData<Vec2>| uv.iter().map(|p| p / rest.unit).collect::<Vec<_>>();
         let mut report = self.report(&start, descent);
-        let (first, mut uv) = (in_units(&start.uv), in_units(&uv));
+        // The unit is a power of two, so dividing by it rounds nothing.
+        let (mut first, mut uv) = (in_units(&start.uv), in_units(&uv));
+        to_best_scale(&rest, self.objective, &mut first);
         report.boundary_repair = self.problem(&rest).clear(&first, &mut uv, &mut report.descent)?;
         Ok((Map { uv, rest }, report))
     }

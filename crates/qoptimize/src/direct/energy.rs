@@ -6,8 +6,10 @@ use crate::qmesh::{CornerId, Vec2};
 use rayon::prelude::*;
 
 use super::Objective;
-use super::element::{self, Edges};
-use super::hessian::{Hessian, Share};
+use super::element::Edges;
+use super::hessian::Hessian;
+use super::kernel;
+use super::layout::Triangle;
 use super::rest::{Rest, RestCorner};
 
 /// Corners that are summed by one task.
@@ -21,11 +23,8 @@ pub(super) fn edges(corner: &RestCorner, uv: &[Vec2]) -> Edges {
 
 /// The energy of `uv`; infinite where a corner is not positive.
 pub(super) fn value(objective: &Objective, rest: &Rest, uv: &[Vec2]) -> f64 {
-    let sums: Vec<f64> = rest
-        .corners
-        .par_chunks(CHUNK)
-        .map(|chunk| chunk.iter().map(|corner| element::value(objective, corner, edges(corner, uv))).sum())
-        .collect();
+    let sums: Vec<f64> =
+        rest.corners.par_chunks(CHUNK).map(|corners| kernel::value(objective, corners, uv)).collect();
     sums.iter().sum()
 }
 
@@ -37,9 +36,8 @@ pub(super) fn derivatives(
     hessian: &mut Hessian,
     uv: &[Vec2],
 ) -> Result<(f64, Vec<f64>), CornerId> {
-    let share = |_, corner: &RestCorner| {
-        let element = element::derivatives(objective, corner, edges(corner, uv))?;
-        Some(Share { value: element.value, gradient: element.gradient, hessian: element.hessian })
+    let corners = |corners: &[RestCorner], gradients: &mut [Edges], triangles: &mut [Triangle]| {
+        kernel::derivatives(objective, corners, uv, gradients, triangles)
     };
-    hessian.assemble(&rest.corners, share).map_err(|corner| rest.ids[corner])
+    hessian.assemble(&rest.corners, corners).map_err(|corner| rest.ids[corner])
 }

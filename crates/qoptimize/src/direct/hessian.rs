@@ -19,16 +19,6 @@ const FACTORED_VERTICES: usize = 6_000;
 /// Corners that one task takes.
 const CHUNK: usize = 2048;
 
-/// What a corner adds.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Share {
-    pub(super) value: f64,
-    /// By the edge vectors.
-    pub(super) gradient: Edges,
-    /// By the edge vectors: the upper triangle, row by row.
-    pub(super) hessian: Triangle,
-}
-
 /// How exact a direction has to be.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Accuracy {
@@ -96,48 +86,33 @@ impl Hessian {
         matches!(self.system, System::Factored(_))
     }
 
-    /// Fills the matrix with the shares of all corners; returns the sum of the values and the gradient (2 entries a vertex), or
-    /// the number of the first corner that has no share.
+    /// Fills the matrix. `shares(corners, gradients, triangles)` gives the gradient of each corner by its edge vectors and the
+    /// upper triangle of its Hessian, row by row, and returns the sum of their values or the place of one that has none.
+    ///
+    /// Returns the sum of all values and the gradient (2 entries a vertex), or the number of the first corner without a value.
     pub(super) fn assemble(
         &mut self,
         corners: &[RestCorner],
-        share: impl Fn(usize, &RestCorner) -> Option<Share> + Sync,
+        shares: impl Fn(&[RestCorner], &mut [Edges], &mut [Triangle]) -> Result<f64, usize> + Sync,
     ) -> Result<(f64, Vec<f64>), usize> {
-        let value = self.shares(corners, share)?;
         let Self { layout, vertices, gradients, triangles, system } = self;
+        let chunks = corners
+            .par_chunks(CHUNK)
+            .zip(gradients.par_chunks_mut(CHUNK))
+            .zip(triangles.par_chunks_mut(CHUNK))
+            .enumerate();
+        let sums: Vec<Result<f64, usize>> = chunks
+            .map(|(chunk, ((corners, gradients), triangles))| {
+                shares(corners, gradients, triangles).map_err(|place| chunk * CHUNK + place)
+            })
+            .collect();
+        let value = sums.into_iter().sum::<Result<f64, usize>>()?;
         let row = |row, blocks: &mut _| layout.gather_row(row, triangles, vertices, blocks);
         match system {
             System::Factored(system) => system.fill(row),
             System::Iterated(system) => system.fill(row),
         }
         Ok((value, layout.gather_gradient(gradients)))
-    }
-
-    /// Computes the share of every corner; returns the sum of the values.
-    fn shares(
-        &mut self,
-        corners: &[RestCorner],
-        share: impl Fn(usize, &RestCorner) -> Option<Share> + Sync,
-    ) -> Result<f64, usize> {
-        let chunks = corners
-            .par_chunks(CHUNK)
-            .zip(self.gradients.par_chunks_mut(CHUNK))
-            .zip(self.triangles.par_chunks_mut(CHUNK))
-            .enumerate();
-        let sums: Vec<Result<f64, usize>> = chunks
-            .map(|(chunk, ((corners, gradients), triangles))| {
-                let mut sum = 0.0;
-                for (at, corner) in corners.iter().enumerate() {
-                    let index = chunk * CHUNK + at;
-                    let share = share(index, corner).ok_or(index)?;
-                    sum += share.value;
-                    gradients[at] = share.gradient;
-                    triangles[at] = share.hessian;
-                }
-                Ok(sum)
-            })
-            .collect();
-        sums.into_iter().sum()
     }
 
     /// Takes the vertices marked in `fixed` out of the system; returns the gradient without them.

@@ -25,6 +25,8 @@ mod energy;
 mod held;
 mod hessian;
 mod isotropic;
+mod kernel;
+mod lanes;
 mod layout;
 mod newton;
 mod options;

@@ -11,6 +11,7 @@ use super::Objective;
 use super::energy;
 use super::hessian::{Accuracy, Hessian, Solved};
 use super::rest::Rest;
+use super::scale::to_best_scale;
 use super::step::first_collapse;
 use crate::convexity::Exempt;
 
@@ -97,7 +98,8 @@ pub enum DescentError {
     Solve(#[from] SolveError),
 }
 
-/// Minimises `objective` from `uv`, a map whose corners (but for exempt ones) are all positive; in place, at true scale.
+/// Minimises `objective` from `uv`, a map whose corners (but for exempt ones) are all positive; in place, at true scale. The
+/// scale of the start plays no part: the best one is found first.
 ///
 /// # Errors
 /// [`DescentError`] when a corner of the start is not positive, or a linear system cannot be solved.
@@ -116,6 +118,7 @@ pub fn minimize(
     }
     // From inside the pool, where short parallel loops do not have to wake it first.
     let result = rayon::scope(|_| {
+        to_best_scale(&rest, &objective, uv);
         let mut hessian = Hessian::new(&rest)?;
         descend(&rest, &mut hessian, uv, &objective, options, observer)
     });

@@ -3,12 +3,17 @@
 //! A start on the unit circle knows nothing of the mesh's size. Scaled first, the descent does not depend on the unit of
 //! length, and begins nearer to its end.
 
+use rayon::prelude::*;
+
 use crate::qmesh::Vec2;
 
 use super::Objective;
 use super::element::{Edges, jacobian};
 use super::energy::{self, edges};
 use super::rest::{Rest, RestCorner};
+
+/// Corners that one task takes.
+const CHUNK: usize = 4096;
 
 /// How the energy depends on the area factor `S` of a scaling: `a S⁻² + b S⁻¹ + c S + d S²`, up to a constant.
 #[derive(Clone, Copy, Debug, Default)]
@@ -38,6 +43,10 @@ impl Powers {
         }
     }
 
+    fn plus(self, other: &Self) -> Self {
+        Self { a: self.a + other.a, b: self.b + other.b, c: self.c + other.c, d: self.d + other.d }
+    }
+
     /// A minimum over `S`: where the derivative by log S changes its sign, found by bisection.
     fn least(&self) -> Option<f64> {
         let slope = |log: f64| {
@@ -58,10 +67,14 @@ impl Powers {
 
 /// Scales `uv`, in the units of `rest`, to a scale of least energy.
 pub(super) fn to_best_scale(rest: &Rest, objective: &Objective, uv: &mut [Vec2]) {
-    let mut powers = Powers::default();
-    for corner in &rest.corners {
-        powers.add(objective, corner, edges(corner, uv));
-    }
+    let of_chunk = |corners: &[RestCorner]| {
+        let mut powers = Powers::default();
+        corners.iter().for_each(|corner| powers.add(objective, corner, edges(corner, uv)));
+        powers
+    };
+    // In chunks of fixed size, so that the sums do not depend on the number of threads.
+    let chunks: Vec<Powers> = rest.corners.par_chunks(CHUNK).map(of_chunk).collect();
+    let powers = chunks.iter().fold(Powers::default(), Powers::plus);
     let Some(scale) = powers.least().map(f64::sqrt).filter(|scale| scale.is_normal()) else { return };
     let scaled: Vec<Vec2> = uv.iter().map(|p| p * scale).collect();
     if energy::value(objective, rest, &scaled).is_finite() {

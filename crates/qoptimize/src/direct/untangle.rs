@@ -8,8 +8,10 @@ use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 
+use super::element::Edges;
 use super::energy::edges;
-use super::hessian::{Accuracy, Hessian, Share, Solved};
+use super::hessian::{Accuracy, Hessian, Solved};
+use super::layout::Triangle;
 use super::rest::{Rest, RestCorner};
 use super::{DescentError, StartError};
 use crate::qmesh::{Observer, QuadMesh, Vec2};
@@ -124,11 +126,13 @@ impl Barrier {
     /// With N = |J| and D = det the energy is g(N, D) and its Hessian `g_N/N · (1 − n nᵀ)` and the 2 × 2 Hessian of g in the
     /// directions n and ∇D, made positive semidefinite; the second derivative of D is left out.
     fn derivatives(&self, rest: &Rest, uv: &[Vec2], hessian: &mut Hessian) -> Vec<f64> {
-        let share = |_, corner: &RestCorner| {
-            let (gradient, hessian) = self.corner(self.jacobian(corner, uv));
-            Some(Share { value: 0.0, gradient, hessian })
+        let shares = |corners: &[RestCorner], gradients: &mut [Edges], triangles: &mut [Triangle]| {
+            for ((corner, gradient), triangle) in corners.iter().zip(gradients).zip(triangles) {
+                (*gradient, *triangle) = self.corner(self.jacobian(corner, uv));
+            }
+            Ok(0.0)
         };
-        hessian.assemble(&rest.corners, share).map_or_else(|_| Vec::new(), |(_, gradient)| gradient)
+        hessian.assemble(&rest.corners, shares).map_or_else(|_| Vec::new(), |(_, gradient)| gradient)
     }
 
     fn corner(&self, j: [f64; 4]) -> ([f64; 4], [f64; 10]) {

@@ -6,6 +6,8 @@ use super::super::element::{self, Edges};
 use super::super::isotropic::{self, Columns, Density, Stretch};
 use super::super::rest::RestCorner;
 use super::super::{AngleTerm, Objective};
+use super::super::{energy, kernel};
+use crate::qmesh::Vec2;
 
 fn rest_corner(angle: f64, next: f64, previous: f64) -> RestCorner {
     let (x, y) = (previous * angle.cos(), previous * angle.sin());
@@ -77,6 +79,41 @@ proptest! {
                 }
             }
             prop_assert!(curvature >= -1e-10 * size, "{objective:?}: {curvature}");
+        }
+    }
+
+    /// Eight corners at a time give what each gives alone, also where one of them has no area or company ends early.
+    #[test]
+    fn eight_at_a_time_are_as_one_by_one(eleven in prop::collection::vec(corners(), 11), spoilt in 0..22usize) {
+        let (mut rest, mut uv) = (Vec::new(), Vec::new());
+        for (number, (corner, [ax, ay, bx, by])) in eleven.into_iter().enumerate() {
+            let first = 3 * number as u32;
+            rest.push(RestCorner { vertices: [first, first + 1, first + 2], ..corner });
+            let here = Vec2::new(number as f64, -0.5);
+            uv.extend([here, here + Vec2::new(ax, ay), here + Vec2::new(bx, by)]);
+        }
+        if spoilt < 11 {
+            uv[3 * spoilt + 2] = uv[3 * spoilt + 1];
+        }
+        for objective in OBJECTIVES {
+            let f: Vec<Edges> = rest.iter().map(|corner| energy::edges(corner, &uv)).collect();
+            let alone: f64 = rest.iter().zip(&f).map(|(rest, &f)| element::value(&objective, rest, f)).sum();
+            let together = kernel::value(&objective, &rest, &uv);
+            prop_assert!(alone == together || (alone - together).abs() < 1e-13 * alone, "{alone} {together}");
+            let (mut gradients, mut triangles) = (vec![[0.0; 4]; 11], vec![[0.0; 10]; 11]);
+            let done = kernel::derivatives(&objective, &rest, &uv, &mut gradients, &mut triangles);
+            if spoilt < 11 {
+                prop_assert_eq!(done, Err(spoilt));
+                continue;
+            }
+            prop_assert!((done.unwrap() - alone).abs() < 1e-13 * alone);
+            for ((rest, &f), (gradient, triangle)) in rest.iter().zip(&f).zip(gradients.iter().zip(&triangles)) {
+                let element = element::derivatives(&objective, rest, f).unwrap();
+                let size = |x: &[f64]| x.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+                let close = |a: &[f64], b: &[f64]| { let bound = 1e-11 * size(b); a.iter().zip(b).all(|(a, b)| (a - b).abs() < bound) };
+                prop_assert!(close(gradient, &element.gradient), "{gradient:?} {:?}", element.gradient);
+                prop_assert!(close(triangle, &element.hessian), "{triangle:?} {:?}", element.hessian);
+            }
         }
     }
 

@@ -61,7 +61,7 @@ const NOT_FOR_SWEEP: &[&str] = &[
 ];
 /// Options about one run, not about habits.
 const NOT_IN_FILES: &[&str] =
-    &["output", "simplified", "pin", "pins", "config", "no-config", "help", "version"];
+    &["output", "simplified", "pin", "pins", "report", "report-q", "config", "no-config", "help", "version"];
 
 /// Parses the command line, with defaults from a configuration file.
 pub(crate) fn parse(mut arguments: Vec<OsString>, environment: &Environment) -> Result<Parsed, ParseFailure> {

@@ -47,6 +47,7 @@ mod check;
 mod info;
 mod layout_command;
 mod measure;
+mod page_report;
 pub mod picture;
 mod picture_args;
 mod render_command;

@@ -33,6 +33,7 @@ mod layout;
 mod legend;
 pub mod materials;
 mod model;
+pub mod page;
 mod paint;
 mod raster;
 mod render;
@@ -45,7 +46,7 @@ use thiserror::Error;
 
 pub use camera::{Projection, UpAxis, View};
 pub use canvas::Canvas;
-pub use color::Rgba;
+pub use color::{Rgba, category};
 pub use colormap::Colormap;
 pub use heat::{FLIPPED, HeatScale, Measure};
 pub use layout::Layout;
@@ -64,4 +65,7 @@ pub enum PictureError {
     /// All vertices are in one place.
     #[error("all vertices that faces use are in one place: there is nothing to see")]
     NoExtent,
+    /// The page's data could not be packed, which only memory or a number that is none can cause.
+    #[error("the data of the page could not be packed")]
+    Packing,
 }

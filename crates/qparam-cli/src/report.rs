@@ -144,9 +144,8 @@ pub(crate) fn verdict(distortion: &Distortion) -> String {
 pub(crate) fn unwrap_text(report: &UnwrapReport<'_>, method: &str, color: bool) -> String {
     let mut text = report.input.line();
     text += &format!("{method}\n");
-    let record = report.record.map(record_lines).unwrap_or_default();
-    let layout = layout_lines(report.seams, report.layout.as_ref(), report.islands);
-    for line in repair_lines(report.repairs).into_iter().chain(record).chain(layout) {
+    let (layout, islands) = (report.layout.as_ref(), report.islands);
+    for line in done_lines(report.record, report.repairs, report.seams, layout, islands) {
         text += &format!("  {line}\n");
     }
     text += "\n";
@@ -171,6 +170,18 @@ pub(crate) fn unwrap_text(report: &UnwrapReport<'_>, method: &str, color: bool) 
         text += &format!("; memory {} MB", bytes.div_ceil(1 << 20));
     }
     text + "\n"
+}
+
+/// What was mended, what ran, and how it was laid out, in sentences.
+pub(crate) fn done_lines(
+    record: Option<&RunRecord>,
+    repairs: &Repairs,
+    seams: SeamLength,
+    layout: Option<&Layout>,
+    islands: &[Island],
+) -> Vec<String> {
+    let record = record.map(record_lines).unwrap_or_default();
+    repair_lines(repairs).into_iter().chain(record).chain(layout_lines(seams, layout, islands)).collect()
 }
 
 /// What ran, in sentences.

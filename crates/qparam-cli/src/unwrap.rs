@@ -23,9 +23,12 @@ use crate::interrupt::Phase;
 use crate::islands::refuse_repairs;
 use crate::json_text;
 use crate::output::Target;
+use crate::page_report::{self, Source};
 use crate::pins;
 use crate::progress::{StageTime, Watch};
-use crate::report::{Head, InputReport, LISTED, Timings, UnwrapReport, peak_memory_bytes, unwrap_text};
+use crate::report::{
+    Head, InputReport, LISTED, Timings, UnwrapReport, done_lines, peak_memory_bytes, unwrap_text,
+};
 use crate::seams;
 use crate::streams::Streams;
 use crate::threads;
@@ -47,8 +50,9 @@ pub(crate) fn run(arguments: &UnwrapArgs, typed: &[String], io: &mut Streams<'_>
     let options = arguments.options()?;
     let target = Target::new(&output_path(arguments));
     let simplified = arguments.simplified.as_deref().map(Target::new);
-    refuse_clashes(arguments, &target, simplified.as_ref())?;
-    for target in [Some(&target), simplified.as_ref()].into_iter().flatten() {
+    let page = arguments.report.as_deref().map(Target::new);
+    refuse_clashes(arguments, &target, simplified.as_ref(), page.as_ref())?;
+    for target in [Some(&target), simplified.as_ref(), page.as_ref()].into_iter().flatten() {
         target.probe()?;
     }
     if !arguments.quiet {
@@ -74,9 +78,13 @@ pub(crate) fn run(arguments: &UnwrapArgs, typed: &[String], io: &mut Streams<'_>
     let job = Job { arguments, options, input, charts, repairs, target };
     let (result, stages) = timed(&mut timings.parameterize, || job.compute(io))?;
     timings.stages = stages;
+    let html = page.as_ref().map(|_| job.page(&result, io)).transpose()?;
     let written = timed(&mut timings.write, || {
         if let Some(target) = &simplified {
             job.write_simplified(target, io)?;
+        }
+        if let (Some(target), Some(html)) = (&page, &html) {
+            target.write(io.stdout, io.interrupt, |writer| writer.write_all(html.as_bytes()))?;
         }
         job.target.write(io.stdout, io.interrupt, |mut writer| {
             job.input.document.write_with_uv(&mut writer, &result.uv)
@@ -141,6 +149,7 @@ fn refuse_clashes(
     arguments: &UnwrapArgs,
     target: &Target,
     simplified: Option<&Target>,
+    page: Option<&Target>,
 ) -> Result<(), Failure> {
     let refuse = |what: &str, help: &str| Err(Failure::new(Exit::Usage, what).help(help));
     let dash = |path: Option<&PathBuf>| path.is_some_and(|path| path.as_os_str() == "-");
@@ -151,6 +160,20 @@ fn refuse_clashes(
         );
     }
     let input = Target::new(&arguments.input);
+    if let Some(page) = page
+        && [Some(target), simplified, Some(&input)]
+            .into_iter()
+            .flatten()
+            .any(|other| page.is_same_place(other))
+    {
+        return refuse(
+            "the page would go to the same place as a mesh",
+            "name another file with --report, one that ends in .html",
+        );
+    }
+    if page == Some(&Target::Stdout) {
+        return refuse("the page would be mixed with the report", "name a file with --report");
+    }
     let is_file = |target: &Target| matches!(target, Target::File(_));
     if simplified.is_some_and(|simplified| is_file(simplified) && simplified.is_same_place(&input)) {
         return refuse(
@@ -242,6 +265,35 @@ impl Job<'_> {
         Ok((result, stages))
     }
 
+    /// The page of `--report`.
+    fn page(&self, result: &Atlas, io: &Streams<'_>) -> Result<String, Failure> {
+        let map = &self.arguments.map;
+        let mut notes = vec![InputReport::new(&self.input).line().trim_end().to_owned()];
+        notes.push(method_line(map, Some(self.arguments.q)));
+        notes.extend(done_lines(
+            record(result),
+            &result.repairs,
+            result.seams,
+            result.layout.as_ref(),
+            &result.islands,
+        ));
+        let mut settings = options_json(&self.options.map, map.boundary_uv.as_deref());
+        settings["layout"] = layout_json(&self.options);
+        let source = Source {
+            input: &self.input,
+            charts: &self.charts,
+            repairs: &self.repairs,
+            options: &self.options,
+            result,
+            notes,
+            settings,
+            q: self.arguments.report_q.as_deref(),
+            threads: map.threads,
+            draw: io.stderr_is_terminal && !self.arguments.quiet,
+        };
+        page_report::html(&source, io)
+    }
+
     fn write_simplified(&self, target: &Target, io: &mut Streams<'_>) -> Result<(), Failure> {
         let watch = Watch::new(io.interrupt, false);
         let mesh = match &self.charts[..] {
@@ -293,7 +345,10 @@ impl Job<'_> {
         } else if !arguments.quiet {
             let color = if aside { io.stderr_color } else { io.stdout_color };
             let text = unwrap_text(&report, &method_line(&arguments.map, Some(arguments.q)), color);
-            io.report(aside, &format!("{text}UVs written to {}\n", report.output))?;
+            let page =
+                arguments.report.as_deref().map(|path| format!("page written to {}\n", Target::new(path)));
+            let page = page.unwrap_or_default();
+            io.report(aside, &format!("{text}UVs written to {}\n{page}", report.output))?;
         }
         if valid {
             return Ok(Exit::Done);

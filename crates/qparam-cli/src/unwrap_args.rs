@@ -35,6 +35,14 @@ pub(crate) struct UnwrapArgs {
     /// Also write the simplified polygon mesh of section 2.1, for looking at it
     #[arg(long, value_name = "FILE.obj", help_heading = "Files")]
     pub(crate) simplified: Option<PathBuf>,
+    /// Also write a page to look at the map: one HTML file that needs no network. It has maps for other q, too, which
+    /// are computed for it
+    #[arg(long, value_name = "REPORT.html", help_heading = "Files")]
+    pub(crate) report: Option<PathBuf>,
+    /// The values of q on that page [default: 11 from 1 to 0; for large meshes 5, or 3]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = unit, allow_negative_numbers = true,
+        requires = "report", help_heading = "Files")]
+    pub(crate) report_q: Option<Vec<f64>>,
 
     /// 1 is angle-true (conformal), 0 is area-true (authalic) (Eq. 10)
     #[arg(long, value_name = "0..1", default_value = "0.5", value_parser = unit, allow_negative_numbers = true, help_heading = "Method")]

@@ -279,10 +279,10 @@ impl<'a> Edges<'a> {
     }
 }
 
-/// Lines around small faces fade, until only a tone of them is left.
+/// Lines around small faces fade, and around very small ones they go: they would only make everything dark.
 fn faded(ink: &Ink, pixels: f32) -> f32 {
     let side = pixels.sqrt() / ink.width;
-    ink.strength * ((side - 1.0) / 6.0).clamp(0.12, 1.0)
+    if side < 1.5 { 0.0 } else { ink.strength * ((side - 1.0) / 6.0).clamp(0.12, 1.0) }
 }
 
 /// Which patches each tile may see, in order.

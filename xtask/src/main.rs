@@ -21,7 +21,7 @@ const TASKS: &[(&str, &str, Task)] = &[
         "map hostile disks of all kinds, certify each map, check by brute force (--count N, --seed S), into docs/tables/disks.md",
         disks::run,
     ),
-    ("figure", "draw docs/figures/head-face.svg anew; --check compares instead", figure::run),
+    ("figure", "draw docs/figures/head-face.png anew; --check compares instead", figure::run),
     (
         "fixtures",
         "regenerate fixtures/ from formulas, byte for byte; --check compares instead",

@@ -16,6 +16,7 @@ use std::path::{Path, PathBuf};
 use clap::Parser;
 use qparam_cli::qmesh::QuadMesh;
 use qparam_cli::qmesh::obj::ObjDocument;
+use qparam_cli::qoptimize::Options;
 use qparam_cli::sweep::TABLE_1_Q;
 
 use mesh_report::MeshReport;
@@ -94,6 +95,15 @@ fn sweep(arguments: &Arguments) -> Result<(), String> {
     }
     files::write(&folder, &tables)?;
     if standard { files::write_section(&readme, &short) } else { Ok(()) }
+}
+
+/// The reading of the paper's method that shows most of Table 1, and the direct method: names and options for a mesh.
+pub(crate) fn best_and_direct(mesh: &QuadMesh) -> Result<[(String, Options); 2], String> {
+    let find = |name: &str| {
+        let contender = reading::contenders().into_iter().find(|contender| contender.name == name);
+        contender.ok_or_else(|| format!("no method {name}"))?.way.options(mesh)
+    };
+    Ok([("paper".to_owned(), find("paper, best")?), ("direct".to_owned(), find("direct")?)])
 }
 
 /// A mesh and its file name without folder and ending.

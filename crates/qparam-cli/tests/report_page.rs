@@ -36,7 +36,9 @@ fn a_page_holds_the_whole_series() {
     assert_eq!(q, [1.0, 0.4, 0.0]);
     assert_eq!((&meta["chosen"], &meta["title"]), (&1.into(), &"hill.obj".into()));
     assert_eq!(meta["maps"][1]["distortion"], json["distortion"]);
-    assert_eq!(meta["settings"], json["options"]);
+    let mut settings = meta["settings"].clone();
+    assert_eq!(settings.as_object_mut().unwrap().remove("layout").as_ref(), Some(&json["layout_options"]));
+    assert_eq!(settings, json["options"]);
     for map in meta["maps"].as_array().unwrap() {
         assert_eq!((&map["holds"], &map["certificate"]), (&true.into(), &"holds".into()));
         let worst = map["worst"].as_array().unwrap();
@@ -47,6 +49,18 @@ fn a_page_holds_the_whole_series() {
     // The same for any number of threads.
     folder.qparam(&[&arguments[..], &["--threads", "2", "--quiet"]].concat()).code(0);
     assert!(folder.read("page.html") == page);
+}
+
+/// A closed surface is cut open, and its seams are on the page in pairs.
+#[test]
+fn seams_are_on_the_page() {
+    let folder = Folder::new();
+    folder.write("cube.obj", common::CUBE);
+    folder.qparam(&["unwrap", "cube.obj", "--report", "page.html", "--report-q", "1", "--quiet"]).code(0);
+    let meta = meta(&folder.read("page.html"));
+    let (edges, seams) = (meta["shape"]["edges"].as_u64().unwrap(), meta["shape"]["seams"].as_u64().unwrap());
+    assert!(edges > 0 && edges % 2 == 0 && seams > 0, "{edges} sides of {seams} seams");
+    assert!(meta["shape"]["points"].as_u64().unwrap() > 8);
 }
 
 /// A method that does not ask for q has one map.

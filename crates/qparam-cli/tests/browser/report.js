@@ -134,7 +134,7 @@ async function use(page) {
   return { looks: looks.size };
 }
 
-// Milliseconds of the slider's handler, in the median of a quick drag, and until the frame that it asks for has been drawn.
+// Milliseconds of the slider's handler, in the median of a quick drag, and until the browser has taken the frame that it asks for.
 async function slide(page) {
   return page.evaluate(async () => {
     const slider = document.getElementById('q'), handler = [], begin = performance.now();

@@ -88,13 +88,36 @@ pub(super) fn find_start_on(
             break;
         }
     }
-    if let Some(best) = best {
-        return Ok(best);
+    if let Some(found) = best.take_if(|best| best.smallest_corner > least_of_its_own(exempt)) {
+        return Ok(found);
     }
+    match (untangled(mesh, boundary, &rest, observer), best) {
+        (Err(StartError::Cancelled), _) => Err(StartError::Cancelled),
+        (Ok(start), Some(best)) if start.smallest_corner < best.smallest_corner => Ok(best),
+        (Err(_), Some(best)) => Ok(best),
+        (start, _) => start,
+    }
+}
+
+/// Corners below this fraction of the mean one may be positive by luck: quads that share their opposite vertices collapse onto the
+/// segment between those in Tutte's embedding, and rounding puts what lies between on either side.
+fn least_of_its_own(exempt: &Exempt) -> f64 {
+    const HAIR: f64 = 1e-15;
+    const HAIR_OF_BUBBLES: f64 = 1e-12;
+    if exempt.is_empty() { HAIR } else { HAIR_OF_BUBBLES }
+}
+
+/// The untangler's map, from the collapsed one.
+fn untangled(
+    mesh: &QuadMesh,
+    boundary: &[(qmesh::VertexId, Vec2)],
+    rest: &Rest,
+    observer: &dyn Observer,
+) -> Result<Start, StartError> {
     let ones = mesh.edge_data(|_| 1.0);
     let mut uv = tutte(mesh, boundary, &ones)?;
-    untangle(&rest, mesh, &mut uv, observer)?;
-    let verdict = judge(&rest, &uv);
+    untangle(rest, mesh, &mut uv, observer)?;
+    let verdict = judge(rest, &uv);
     match verdict.valid() {
         Some(smallest_corner) => Ok(Start { uv, method: StartMethod::Untangled, smallest_corner }),
         None => Err(StartError::Tangled { corner: verdict.worst, count: verdict.bad }),

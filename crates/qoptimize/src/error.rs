@@ -6,6 +6,7 @@ use qembed::{EmbedError, qsimplify::SimplifyError};
 use crate::certificate::Certificate;
 use crate::direct::{DescentError, StartError};
 use crate::distortion::MeasureError;
+use crate::symmetry::SymmetryError;
 
 /// Why there is no map.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -89,6 +90,12 @@ pub enum ParameterizeError {
         /// The vertex.
         vertex: VertexId,
     },
+    /// A symmetric map was asked for together with pins or a held boundary.
+    #[error("symmetric maps have a free boundary and no pins")]
+    SymmetricAndHeld,
+    /// The mesh has no mirror symmetry.
+    #[error(transparent)]
+    Symmetry(SymmetryError),
     /// A pin cannot be brought to its place without a flip.
     #[error("the pin of {vertex} stays {distance} short of its place: on the way there a corner would flip")]
     PinOutOfReach {

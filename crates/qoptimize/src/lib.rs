@@ -43,12 +43,15 @@ pub mod parameterize;
 mod plane;
 mod preset;
 pub mod rounding;
+pub mod symmetry;
+pub mod worst;
 
 pub use atlas::{Atlas, AtlasError, AtlasOptions, Density, Island, UpAxis};
 pub use certificate::{Certificate, Violation, ViolationKind, certify};
 pub use convexity::Exempt;
 pub use direct::{
     AngleTerm, BoundaryRepair, Descent, DirectOptions, DirectReport, ScaffoldEnd, StartMethod, Stop,
+    SymmetryReport,
 };
 pub use distortion::{Benchmark, Distortion, FaceMeasures, MeasureError, measure, measure_faces};
 pub use error::ParameterizeError;
@@ -57,3 +60,5 @@ pub use parameterize::{Method, Options, Parameterization, RunRecord, parameteriz
 pub use preset::Preset;
 pub use qembed::{self, qcurv, qmesh, qsimplify, qsolve};
 pub use rounding::{Rounding, round_to_single};
+pub use symmetry::{Mirror, SymmetryError};
+pub use worst::{Cause, Circumstances, WorstFace, worst_faces};

@@ -70,6 +70,9 @@ pub struct Options {
     /// Vertices with the places that they are to take exactly, for [`Method::Direct`] and [`Method::Conformal`]. One pin moves the
     /// normalised map; with two or more there is no normalisation. Default none.
     pub pins: Vec<(VertexId, Vec2)>,
+    /// Whether the map is to be exactly as symmetric as the mesh, mirrored at a line of constant u, for [`Method::Direct`] and
+    /// [`Method::Conformal`] with a free boundary. Refused when there is no mirror symmetry. Default false.
+    pub symmetric: bool,
     /// Section 2.1.
     pub simplify: SimplifyOptions,
     /// `r` of Eq. 5. Default 1.
@@ -98,6 +101,7 @@ impl Default for Options {
             q: 0.5,
             boundary: BoundaryShape::default(),
             pins: Vec::new(),
+            symmetric: false,
             simplify: SimplifyOptions::default(),
             exponent: 1.0,
             weights: Weights::default(),
@@ -191,6 +195,15 @@ pub fn parameterize(
 }
 
 impl Options {
+    /// Whether the boundary is left to the method: nothing holds it.
+    #[must_use]
+    pub fn is_boundary_free(&self) -> bool {
+        match self.boundary {
+            BoundaryShape::Auto | BoundaryShape::Free => self.method.has_free_boundary(),
+            _ => self.method == Method::Lscm,
+        }
+    }
+
     pub(crate) fn check(&self) -> Result<(), ParameterizeError> {
         if !(0.0..=1.0).contains(&self.q) {
             return Err(EmbedError::BadMix(self.q).into());
@@ -201,6 +214,9 @@ impl Options {
         self.direct.check()?;
         if !self.pins.is_empty() && !self.method.minimizes() {
             return Err(ParameterizeError::OtherMethod("pins"));
+        }
+        if self.symmetric && !self.method.minimizes() {
+            return Err(ParameterizeError::OtherMethod("symmetric maps"));
         }
         self.overlaps.as_ref().map_or(Ok(()), OverlapOptions::check)
     }
@@ -275,7 +291,7 @@ fn direct(mesh: &QuadMesh, options: &Options, observer: &dyn Observer) -> Result
             angle_term: options.direct.angle_term,
         },
     };
-    let wishes = Wishes { boundary: &options.boundary, pins: &options.pins };
+    let wishes = Wishes { boundary: &options.boundary, pins: &options.pins, symmetric: options.symmetric };
     let (mut uv, report) = direct::embed(mesh, &objective, &wishes, &options.direct.descent, observer)?;
     let exact = mesh.to_corners(&uv);
     normalize(&mut uv, options);
@@ -339,7 +355,18 @@ fn normalize(uv: &mut VertexData<Vec2>, options: &Options) {
     let Some((low, high)) = low.zip(high) else { return };
     let longer = (high - low).max();
     // A map onto one point stays as it is: measuring it says so.
-    if options.normalize && !is_placed && longer > 0.0 && longer.is_finite() {
+    if !options.normalize || is_placed || longer <= 0.0 || !longer.is_finite() {
+        return;
+    }
+    if options.symmetric && low.x == -high.x {
+        let half = on_grid(high.x / longer);
+        uv.iter_mut().for_each(|p| *p = Vec2::new(half + on_grid(p.x / longer), (p.y - low.y) / longer));
+    } else {
         uv.iter_mut().for_each(|p| *p = (*p - low) / longer);
     }
+}
+
+/// The nearest multiple of 2⁻⁵²: sums of two such numbers up to 1 are exact, so what was mirrored at 0 is mirrored at `half`.
+fn on_grid(x: f64) -> f64 {
+    (x / f64::EPSILON).round() * f64::EPSILON
 }

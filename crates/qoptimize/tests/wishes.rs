@@ -8,7 +8,7 @@ use qoptimize::{DirectReport, Method, Options, ParameterizeError, certify, param
 type Made = Result<(VertexData<Vec2>, DirectReport), ParameterizeError>;
 
 fn made(mesh: &QuadMesh, boundary: &BoundaryShape, pins: &[(VertexId, Vec2)]) -> Made {
-    let wishes = Wishes { boundary, pins };
+    let wishes = Wishes { boundary, pins, symmetric: false };
     embed(mesh, &Objective::default(), &wishes, &DescentOptions::default(), &())
 }
 

@@ -47,6 +47,7 @@ const MAPPING: [&str; 2] = ["unwrap", "sweep"];
 /// Options that mean something else, or nothing, to `sweep`.
 const NOT_FOR_SWEEP: &[&str] = &[
     "q",
+    "worst",
     "json",
     "quiet",
     "uv-precision",

@@ -35,6 +35,7 @@ mod choices;
 mod config;
 mod layout_args;
 mod unwrap_args;
+mod worst;
 
 mod boundary;
 mod disk;

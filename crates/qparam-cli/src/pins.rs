@@ -49,14 +49,17 @@ pub(crate) fn read(
         pins.extend(listed.filter_map(|(vertex, place)| Some(PinArg { vertex, place: place? })));
     }
     let mut of_source = vec![None; count];
+    let mut on_seam = vec![false; count];
     for vertex in mesh.vertices() {
-        of_source[mesh.source_vertex(vertex) as usize] = Some(vertex);
+        let source = mesh.source_vertex(vertex) as usize;
+        on_seam[source] = of_source[source].replace(vertex).is_some();
     }
     let refuse = |vertex: usize, why: &str| {
         Failure::new(Exit::Input, format!("{}: vertex {} cannot be pinned: {why}", input.name, vertex + 1))
     };
     pins.into_iter()
         .map(|PinArg { vertex, place }| match of_source.get(vertex) {
+            Some(Some(_)) if on_seam[vertex] => Err(refuse(vertex, "a seam runs through it")),
             Some(Some(found)) => Ok((*found, place)),
             Some(None) => Err(refuse(vertex, "no face uses it")),
             None => Err(refuse(vertex, &format!("there are only {count} vertices"))),

@@ -6,6 +6,7 @@ use qoptimize::qmesh::obj::UvWriteSummary;
 use qoptimize::qsolve::SolveMethod;
 use qoptimize::{
     BoundaryRepair, Certificate, DirectReport, Distortion, Island, RunRecord, ScaffoldEnd, StartMethod, Stop,
+    SymmetryReport,
 };
 use serde::Serialize;
 
@@ -14,6 +15,7 @@ use crate::input::Input;
 use crate::islands::{island_table, layout_lines, repair_lines};
 use crate::progress::StageTime;
 use crate::table::{Table, counted, short};
+use crate::worst::{self, WorstReport};
 
 /// Changes when a field of the JSON reports is renamed, removed, or means something else.
 pub const SCHEMA_VERSION: u32 = 2;
@@ -105,6 +107,7 @@ pub(crate) struct UnwrapReport<'a> {
     pub(crate) valid: bool,
     pub(crate) certificate: Certificate,
     pub(crate) distortion: &'a Distortion,
+    pub(crate) worst_faces: Vec<WorstReport>,
     pub(crate) options: serde_json::Value,
     /// How the map came about; nothing when there are several islands.
     pub(crate) record: Option<&'a RunRecord>,
@@ -153,6 +156,7 @@ pub(crate) fn unwrap_text(report: &UnwrapReport<'_>, method: &str, color: bool) 
         text += &(island_table(report.islands).render(color) + "\n");
     }
     text += &distortion_table(&[(String::new(), report.distortion)]).render(color);
+    text += &worst::text(&report.worst_faces);
     text += &format!("\ncertificate: {}\n", report.certificate);
     let times = &report.timings_seconds;
     let stages: Vec<_> =
@@ -265,6 +269,7 @@ fn direct_lines(direct: &DirectReport) -> Vec<String> {
         "start: {start}; energy {:.4e} after {steps} from {:.4e}; {stop}",
         descent.energy, descent.energy_before
     )];
+    lines.extend(direct.symmetry.as_ref().map(symmetry_line));
     lines.extend(direct.boundary_repair.as_ref().map(repair_line));
     if let Some(limit) = direct.elliptic_limit
         && direct.corners_beyond_elliptic > 0
@@ -285,6 +290,16 @@ fn direct_lines(direct: &DirectReport) -> Vec<String> {
         ));
     }
     lines
+}
+
+/// The mirror, and how well it fits.
+fn symmetry_line(symmetry: &SymmetryReport) -> String {
+    let [x, y, z] = symmetry.normal.map(|component| format!("{:.3}", component + 0.0));
+    format!(
+        "symmetry: mirrored exactly; the plane has the normal ({x}, {y}, {z}), the surface is off by {} of its size, {} on the axis",
+        short(symmetry.deviation),
+        counted(symmetry.axis_vertices, "vertex")
+    )
 }
 
 /// What it cost to keep the boundary clear of itself.

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use qoptimize::direct::StartError;
 use qoptimize::qembed::EmbedError;
 use qoptimize::qmesh::{BuildError, QuadMesh, VertexId};
-use qoptimize::{AtlasError, Certificate, ParameterizeError};
+use qoptimize::{AtlasError, Certificate, ParameterizeError, SymmetryError};
 
 use crate::disk::describe;
 use crate::exit::Exit;
@@ -156,6 +156,24 @@ pub(crate) fn no_map(error: &ParameterizeError, mesh: &QuadMesh, input: &Input) 
                     vertex(mesh.vertex(*corner))
                 ))
                 .help("a free or convex boundary leaves more room; cut limbs that are longer than floating point reaches");
+        }
+        ParameterizeError::Symmetry(SymmetryError::Shape { vertex: v, deviation, .. }) => {
+            return failure
+                .note(format!(
+                    "the mesh has no mirror symmetry: the nearest one misses {} by {} of the size of the mesh",
+                    vertex(*v),
+                    short(*deviation)
+                ))
+                .help("leave --symmetric out, or repair the symmetry of the model");
+        }
+        ParameterizeError::Symmetry(SymmetryError::Connectivity { vertices: [a, b] }) => {
+            return failure
+                .note(format!(
+                    "the mesh has no mirror symmetry: the nearest one would have to swap {} and {}, where the faces differ",
+                    vertex(*a),
+                    vertex(*b)
+                ))
+                .help("leave --symmetric out, or repair the symmetry of the model");
         }
         ParameterizeError::PinOnHeldBoundary { vertex: v } => {
             return failure

@@ -33,6 +33,7 @@ use crate::seams;
 use crate::streams::Streams;
 use crate::threads;
 use crate::translate::{no_atlas, refused};
+use crate::worst;
 
 /// What a run has gathered before it computes.
 struct Job<'a> {
@@ -74,6 +75,9 @@ pub(crate) fn run(arguments: &UnwrapArgs, typed: &[String], io: &mut Streams<'_>
     if !arguments.pin.is_empty() || arguments.pins.is_some() {
         let mesh = only_island("pins", &charts, &input)?;
         options.map.pins = pins::read(&arguments.pin, arguments.pins.as_deref(), io.stdin, mesh, &input)?;
+    }
+    if options.map.symmetric {
+        only_island("--symmetric", &charts, &input)?;
     }
     let job = Job { arguments, options, input, charts, repairs, target };
     let (result, stages) = timed(&mut timings.parameterize, || job.compute(io))?;
@@ -328,6 +332,8 @@ impl Job<'_> {
             valid,
             certificate,
             distortion: &result.distortion,
+            worst_faces: worst::find(&self.input, &self.charts, result, &self.options, arguments.worst)
+                .unwrap_or_default(),
             options: options_json(&self.options.map, arguments.map.boundary_uv.as_deref()),
             record: record(result),
             repairs: &result.repairs,

@@ -65,6 +65,15 @@ pub(crate) struct UnwrapArgs {
     #[arg(long, value_name = "FILE", help_heading = "Method")]
     pub(crate) pins: Option<PathBuf>,
 
+    /// Name this many of the worst faces, each with what forces it
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "5",
+        allow_negative_numbers = true,
+        help_heading = "Report"
+    )]
+    pub(crate) worst: usize,
     /// Print the report as JSON
     #[arg(long, action = ArgAction::SetTrue, help_heading = "Report")]
     pub(crate) json: bool,
@@ -96,6 +105,11 @@ pub(crate) struct MapArgs {
     /// Positions for --boundary fixed: an OBJ with UVs on the same vertices, or lines `vertex u v` (from 1)
     #[arg(long, value_name = "FILE", help_heading = "Method")]
     pub(crate) boundary_uv: Option<PathBuf>,
+    /// Map a symmetric mesh exactly symmetrically; refused when it has no mirror plane (direct, conformal)
+    ///
+    /// Partners get the same v, and values of u whose sum is the same for all of them, to the last bit.
+    #[arg(long, help_heading = "Method")]
+    pub(crate) symmetric: bool,
     /// Leave the UVs in the units of the method instead of fitting them to the unit square
     #[arg(long, help_heading = "Method")]
     pub(crate) no_normalize: bool,
@@ -227,6 +241,18 @@ impl UnwrapArgs {
             return Err(Failure::new(Exit::Usage, "--pin, --pins: this method cannot hold pins")
                 .help("use --method direct or conformal"));
         }
+        let arranged = self.layout.up.is_some() || self.layout.no_pack;
+        if arranged && (has_pins || options.symmetric) {
+            return Err(Failure::new(
+                Exit::Usage,
+                "--up and --no-pack move the map, which pins and --symmetric place already",
+            )
+            .help("leave --up and --no-pack out"));
+        }
+        if has_pins && options.symmetric {
+            return Err(Failure::new(Exit::Usage, "--symmetric and pins exclude each other")
+                .help("leave one of the two out"));
+        }
         if self.map.method != MethodChoice::Paper && self.simplified.is_some() {
             return Err(Failure::new(Exit::Usage, "--simplified: only the method `paper` simplifies")
                 .help("leave --simplified out, or use --method paper"));
@@ -285,6 +311,7 @@ impl MapArgs {
                 },
             },
             pins: Vec::new(),
+            symmetric: self.symmetric,
             normalize: !self.no_normalize,
             precision: UvPrecision::default(),
         })
@@ -305,6 +332,18 @@ impl MapArgs {
             return refuse(
                 "--boundary free: this method needs positions for the boundary".into(),
                 "use --method direct, conformal or lscm, or leave --boundary out",
+            );
+        }
+        if self.symmetric && !Method::from(self.method).minimizes() {
+            return refuse(
+                "--symmetric: this method cannot keep a symmetry exactly".into(),
+                "use --method direct or conformal",
+            );
+        }
+        if self.symmetric && !matches!(self.boundary, BoundaryChoice::Auto | BoundaryChoice::Free) {
+            return refuse(
+                "--symmetric needs a free boundary".into(),
+                "leave --boundary out, or leave --symmetric out",
             );
         }
         match (self.boundary, &self.boundary_uv) {
@@ -392,6 +431,7 @@ mod tests {
             "--boundary=square",
             "--boundary=circle",
             "--no-normalize",
+            "--symmetric",
             "--rule=ring",
             "--remove-fraction=0.1",
             "--remove-below=0.1",

@@ -79,3 +79,58 @@ fn impossible_wishes_are_refused_with_the_place() {
         assert!(!folder.names().contains(&"in_uv.obj".to_owned()), "{arguments:?}");
     }
 }
+
+/// A symmetric map is mirrored in the file: partners have the same v and the same sum of u.
+#[test]
+fn symmetry_arrives_in_the_file() {
+    let folder = Folder::new();
+    folder.write("in.obj", hill(6));
+    let text = folder.qparam(&["unwrap", "in.obj", "--symmetric"]).code(0).stdout;
+    assert!(
+        text.contains("symmetry: mirrored exactly; the plane has the normal (1.000, 0.000, 0.000)"),
+        "{text}"
+    );
+    let vt: Vec<[f64; 2]> = placed(&folder, "in_uv.obj")
+        .iter()
+        .map(|line| {
+            let (u, v) = line.split_once(' ').unwrap();
+            [u.parse().unwrap(), v.parse().unwrap()]
+        })
+        .collect();
+    for row in vt.chunks(7) {
+        for k in 0..7 {
+            assert_eq!((row[k][0] + row[6 - k][0], row[k][1]), (vt[0][0] + vt[6][0], row[6 - k][1]));
+        }
+    }
+    // A vertex on none of the hill's four mirrors.
+    let tenth = hill(6).lines().filter(|line| line.starts_with("v ")).nth(9).unwrap().to_owned();
+    let lopsided = hill(6).replace(&tenth, "v 0 0 3");
+    folder.write("lopsided.obj", lopsided);
+    let run = folder.qparam(&["unwrap", "lopsided.obj", "--symmetric"]).code(5);
+    assert!(
+        run.stderr.contains("the mesh has no mirror symmetry: the nearest one misses vertex"),
+        "{}",
+        run.stderr
+    );
+    folder.qparam(&["unwrap", "in.obj", "--symmetric", "--boundary", "circle"]).code(2);
+    folder.qparam(&["unwrap", "in.obj", "--symmetric", "--pin", "1=0,0"]).code(2);
+}
+
+/// The worst faces are named in the numbers of the file, as many as asked for, in both reports.
+#[test]
+fn the_worst_faces_are_named() {
+    let folder = Folder::new();
+    folder.write("in.obj", hill(6));
+    let text = folder.qparam(&["unwrap", "in.obj", "--worst", "2"]).code(0).stdout;
+    let lines: Vec<&str> = text.lines().skip_while(|line| *line != "worst faces").skip(1).take(3).collect();
+    assert!(lines[0].starts_with("  face ") && lines[0].contains("curvature of"), "{text}");
+    assert!(lines[1].starts_with("  face ") && lines[2].is_empty(), "{text}");
+    let report = folder.qparam(&["unwrap", "in.obj", "--json"]).code(0).json();
+    let worst = report["worst_faces"].as_array().unwrap();
+    assert_eq!(worst.len(), 5);
+    let energies: Vec<f64> = worst.iter().map(|face| face["symmetric_dirichlet"].as_f64().unwrap()).collect();
+    assert!(energies.is_sorted_by(|a, b| *a >= b * (1.0 - 1e-6)), "{energies:?}");
+    let face = worst[0]["face"].as_u64().unwrap();
+    assert!((1..=36).contains(&face) && lines[0].starts_with(&format!("  face {face} at ")), "{face} {text}");
+    assert_eq!(worst[0]["causes"][0]["kind"], "curvature");
+}

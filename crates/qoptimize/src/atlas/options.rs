@@ -52,7 +52,7 @@ impl UpAxis {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default))]
 pub struct AtlasOptions {
-    /// How each island is mapped. A fixed boundary is for meshes of one island.
+    /// How each island is mapped. A fixed boundary, pins and symmetry are for meshes of one island.
     pub map: Options,
     /// Whether closed surfaces and handles are cut open by automatic seams. Default true; otherwise they are refused.
     pub open: bool,

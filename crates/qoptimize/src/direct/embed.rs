@@ -12,6 +12,7 @@ use super::clear::FreeProblem;
 use super::elliptic::corners_beyond;
 use super::held::HeldBoundary;
 use super::hessian::Hessian;
+use super::mirrored;
 use super::newton::descend;
 use super::pull::{self, Pin, Pull};
 use super::rest::{Rest, unit_length};
@@ -26,11 +27,13 @@ pub struct Wishes<'a> {
     pub boundary: &'a BoundaryShape,
     /// Vertices with their places, which they take exactly.
     pub pins: &'a [(VertexId, Vec2)],
+    /// Whether the map is to be mirrored by `u ↦ −u` exactly: for free boundaries without pins.
+    pub symmetric: bool,
 }
 
 impl Default for Wishes<'_> {
     fn default() -> Self {
-        Self { boundary: &BoundaryShape::Auto, pins: &[] }
+        Self { boundary: &BoundaryShape::Auto, pins: &[], symmetric: false }
     }
 }
 
@@ -55,10 +58,20 @@ pub fn embed(
     observer: &dyn Observer,
 ) -> Result<(VertexData<Vec2>, DirectReport), ParameterizeError> {
     pull::check(mesh, wishes.pins)?;
-    let run = Run { mesh, exempt: Exempt::find(mesh), objective: &objective.clamped(), options, observer };
-    let (mut map, mut report) = match wishes.boundary {
-        BoundaryShape::Auto | BoundaryShape::Free => run.free(objective)?,
-        shape => run.held(shape)?,
+    let is_free = matches!(wishes.boundary, BoundaryShape::Auto | BoundaryShape::Free);
+    if wishes.symmetric && !(is_free && wishes.pins.is_empty()) {
+        return Err(ParameterizeError::SymmetricAndHeld);
+    }
+    let mut run =
+        Run { mesh, exempt: Exempt::find(mesh), objective: &objective.clamped(), options, observer };
+    let symmetrized = if wishes.symmetric { Some(mirrored::symmetrized(mesh)?) } else { None };
+    let (mut map, mut report) = match (&symmetrized, wishes.boundary) {
+        (Some((even, mirror)), _) => {
+            run.mesh = even;
+            run.mirrored(mirror)?
+        }
+        (None, _) if is_free => run.free(objective)?,
+        (None, shape) => run.held(shape)?,
     };
     match wishes.pins {
         [] => {}
@@ -77,18 +90,19 @@ pub fn embed(
 }
 
 /// A map in units of its problem.
-struct Map {
-    uv: Vec<Vec2>,
-    rest: Rest,
+pub(super) struct Map {
+    pub(super) uv: Vec<Vec2>,
+    pub(super) rest: Rest,
 }
 
-struct Run<'a> {
-    mesh: &'a QuadMesh,
-    exempt: Exempt,
+/// What one call works with.
+pub(super) struct Run<'a> {
+    pub(super) mesh: &'a QuadMesh,
+    pub(super) exempt: Exempt,
     /// Clamped.
-    objective: &'a Objective,
+    pub(super) objective: &'a Objective,
     options: &'a DescentOptions,
-    observer: &'a dyn Observer,
+    pub(super) observer: &'a dyn Observer,
 }
 
 impl Run<'_> {
@@ -107,7 +121,7 @@ impl Run<'_> {
     }
 
     /// A first map. Holes are filled for this time only.
-    fn start(&self) -> Result<Start, StartError> {
+    pub(super) fn start(&self) -> Result<Start, StartError> {
         let Some(filled) = self.mesh.filled() else {
             return find_start(self.mesh, &self.exempt, self.observer);
         };
@@ -174,12 +188,12 @@ impl Run<'_> {
         Ok(())
     }
 
-    fn descend(&self, rest: &Rest, uv: &mut [Vec2]) -> Result<Descent, ParameterizeError> {
+    pub(super) fn descend(&self, rest: &Rest, uv: &mut [Vec2]) -> Result<Descent, ParameterizeError> {
         let mut hessian = Hessian::new(rest).map_err(super::DescentError::from)?;
         Ok(descend(rest, &mut hessian, uv, self.objective, self.options, self.observer)?)
     }
 
-    fn problem<'a>(&'a self, rest: &'a Rest) -> FreeProblem<'a> {
+    pub(super) fn problem<'a>(&'a self, rest: &'a Rest) -> FreeProblem<'a> {
         FreeProblem {
             mesh: self.mesh,
             rest,
@@ -189,13 +203,14 @@ impl Run<'_> {
         }
     }
 
-    fn report(&self, start: &Start, descent: Descent) -> DirectReport {
+    pub(super) fn report(&self, start: &Start, descent: Descent) -> DirectReport {
         DirectReport {
             start: start.method,
             start_smallest_corner: start.smallest_corner,
             exempt_faces: self.exempt.faces(),
             descent,
             boundary_repair: None,
+            symmetry: None,
             elliptic_limit: None,
             corners_beyond_elliptic: 0,
         }

@@ -1,7 +1,7 @@
 //! What the caller chooses, and what he is told.
 
 use crate::ParameterizeError;
-use crate::direct::{AngleTerm, BoundaryRepair, Descent, DescentOptions, StartMethod};
+use crate::direct::{AngleTerm, BoundaryRepair, Descent, DescentOptions, StartMethod, SymmetryReport};
 use crate::qmesh::FaceId;
 
 /// What the energy needs besides q, and when the descent ends.
@@ -52,6 +52,8 @@ pub struct DirectReport {
     pub descent: Descent,
     /// What it took to keep the boundary clear of itself; `None` where it was so anyway.
     pub boundary_repair: Option<BoundaryRepair>,
+    /// The mirror, when a symmetric map was asked for.
+    pub symmetry: Option<SymmetryReport>,
     /// Up to which stretch the energy is elliptic: [`Objective::elliptic_limit`](super::Objective::elliptic_limit).
     pub elliptic_limit: Option<f64>,
     /// Corners that are stretched beyond it.

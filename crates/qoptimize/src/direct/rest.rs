@@ -132,7 +132,7 @@ fn corner_factors(mesh: &QuadMesh, face: FaceId, exempt: &Exempt) -> Vec<f64> {
 }
 
 /// Which corners of `face` are concave in space: against the face's mean normal.
-pub(super) fn concave_corners(mesh: &QuadMesh, face: FaceId) -> Vec<bool> {
+pub(crate) fn concave_corners(mesh: &QuadMesh, face: FaceId) -> Vec<bool> {
     let normals: Vec<Vec3> = mesh
         .face_corners(face)
         .map(|corner| {

@@ -48,7 +48,8 @@ pub(super) fn untangle(
         let gradient = barrier.derivatives(rest, uv, &mut hessian);
         let gradient = hessian.fix(&fixed, gradient);
         let solved = hessian.newton_direction(uv, &gradient, Accuracy::DIRECTION, false);
-        let Solved { direction, decrement, .. } = solved.map_err(solve_error)?;
+        let Solved { mut direction, decrement, .. } = solved.map_err(solve_error)?;
+        rest.constraint.reflect(&mut direction);
         let after = barrier.search(rest, uv, &direction, before, decrement);
         let smallest = barrier.smallest_determinant(rest, uv);
         if smallest > GOOD_DETERMINANT {

@@ -101,9 +101,11 @@ pub(crate) fn no_atlas(error: &AtlasError, islands: usize, input: &Input) -> Fai
     match error {
         AtlasError::Cancelled => Failure::interrupted(),
         AtlasError::Build(error) => refused(error, input),
-        AtlasError::Island { mesh, error: ParameterizeError::Embed(embed), first_face }
-            if matches!(embed, EmbedError::Closed { .. } | EmbedError::Handles { .. }) =>
-        {
+        AtlasError::Island {
+            mesh,
+            error: ParameterizeError::Embed(EmbedError::Closed { .. } | EmbedError::Handles { .. }),
+            first_face,
+        } => {
             let line = input.document.face_line(*first_face as usize);
             let place = format!("the island of face {} (line {line})", first_face + 1);
             let message =

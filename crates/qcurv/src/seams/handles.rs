@@ -203,7 +203,7 @@ fn arcs(mesh: &QuadMesh, edges: &[EdgeId]) -> Vec<Vec<VertexId>> {
                 }
             }
             if walk.len() > 1 {
-                walks.extend(split(walk));
+                walks.extend(split(&walk));
             }
         }
     }
@@ -211,7 +211,7 @@ fn arcs(mesh: &QuadMesh, edges: &[EdgeId]) -> Vec<Vec<VertexId>> {
 }
 
 /// A walk whose ends are the same, or that is long, in parts: the copy of a part cannot go round the other way.
-fn split(walk: Vec<VertexId>) -> Vec<Vec<VertexId>> {
+fn split(walk: &[VertexId]) -> Vec<Vec<VertexId>> {
     let closed = walk[0] == walk[walk.len() - 1];
     let parts = if closed { 3 } else { 1 };
     let steps = walk.len() - 1;

@@ -123,7 +123,7 @@ impl fmt::Display for Certificate {
 /// let mesh = shapes::grid(4, 3);
 /// let mut uv: Vec<Vec2> = mesh.corners().map(|c| mesh.position(mesh.vertex(c)).xy()).collect();
 /// assert!(certify(mesh.view(), &uv, 10)?.holds);
-/// uv[0] *= -100.0;
+/// uv[0] = Vec2::new(100.0, 100.0); // the first face turns over
 /// assert!(!certify(mesh.view(), &uv, 10)?.holds);
 /// # Ok::<(), qoptimize::MeasureError>(())
 /// ```

@@ -1,12 +1,12 @@
 //! The whole way for any polygons: charts, a map of each, and a layout.
 //!
 //! [`unwrap`] makes oriented manifold pieces of whatever comes ([`qmesh::charts`](qembed::qmesh::charts)), cuts open what cannot be
-//! flattened ([`qcurv::seams`](qembed::qcurv::seams)), maps every piece by itself and in parallel ([`parameterize`]), turns it
+//! flattened ([`qcurv::seams`](qembed::qcurv::seams)), maps every piece by itself and in parallel ([`parameterize`](crate::parameterize())), turns it
 //! upright, scales it to its density, and packs all into the unit square ([`crate::pack`]). A mesh that is one planar
-//! patch already comes out as [`parameterize`] maps it, unless an upright axis is asked for.
+//! patch already comes out as [`parameterize`](crate::parameterize()) maps it, unless an upright axis is asked for.
 //!
 //! A piece for which the method fails (a boundary shape that does not fit it, a surface of no area) is mapped by
-//! [`Method::Direct`], and if that fails too, by the convex start alone; [`Island::fallback`] says why. Only when the one
+//! [`Method::Direct`](crate::Method::Direct), and if that fails too, by the convex start alone; [`Island::fallback`] says why. Only when the one
 //! piece there is fails, it is an error.
 
 mod layout;

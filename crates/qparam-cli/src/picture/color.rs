@@ -1,6 +1,6 @@
 //! Colours: linear light for computing, sRGB bytes for files, and Oklab for colours that look evenly spaced.
 //!
-//! [Ottosson2020]: B. Ottosson, A perceptual color space for image processing, 2020. The matrices are his.
+//! (Ottosson 2020): B. Ottosson, A perceptual color space for image processing, 2020. The matrices are his.
 
 use std::fmt;
 use std::str::FromStr;

@@ -7,16 +7,21 @@
 mod agreement;
 mod cgal;
 mod contestant;
+mod defaults;
 mod dominance;
+mod front;
 mod league;
 pub(crate) mod machine;
 mod markdown;
+mod meshes;
 mod numbers;
 mod ours;
 mod places;
 mod python;
 mod race;
+mod settings;
 mod shell;
+mod summary;
 
 use std::path::{Path, PathBuf};
 
@@ -31,8 +36,9 @@ use race::Race;
 #[derive(Debug, Parser)]
 #[command(name = "cargo xtask compare")]
 struct Arguments {
-    /// Quad meshes (OBJ) that are disks; default: the face and the head of fixtures/
-    meshes: Vec<PathBuf>,
+    /// Quad meshes that are disks: OBJ files, or shapes like nose:100, bump:100, finger:9,126; default: the face and the head of
+    /// fixtures/
+    meshes: Vec<String>,
     /// Runs of each method on each mesh; times are medians
     #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..))]
     runs: u32,
@@ -48,14 +54,23 @@ struct Arguments {
     /// The Python interpreter for the rivals (bpy needs 3.11)
     #[arg(long, value_name = "PATH")]
     python: Option<PathBuf>,
+    /// A `qparam` that is built already; default: cargo builds one in release mode
+    #[arg(long, value_name = "PATH")]
+    qparam: Option<PathBuf>,
     /// Install nothing; rivals that are not there are listed so
     #[arg(long)]
     no_install: bool,
-    /// Also look, for every valid rival in one island, for a setting of --q, --shape and --angle-term that is no worse in angle
-    /// error, area error and symmetric Dirichlet (112 maps a mesh)
+    /// Also look, for every rival's map in one island, for a setting of --q, --shape and --angle-term that is no worse in angle
+    /// error, area error and symmetric Dirichlet (112 maps a mesh and more), and draw both (SVG, beside the table)
     #[arg(long)]
     dominance: bool,
-    /// Where the table goes; JSON goes beside it with the ending .json
+    /// Run nothing: draw the table anew from the data of an earlier run
+    #[arg(long, value_name = "FILE.json", conflicts_with = "meshes")]
+    from: Option<PathBuf>,
+    /// Also put the short table into README.md
+    #[arg(long)]
+    readme: bool,
+    /// Where the table goes; a picture goes beside it, JSON with all figures into target/compare
     #[arg(long, value_name = "FILE.md", default_value = "target/compare/league.md")]
     output: PathBuf,
 }
@@ -75,13 +90,38 @@ pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
 
 fn compare(arguments: &Arguments) -> Result<(), String> {
     let places = Places::new()?;
-    let meshes = meshes(arguments, &places)?;
-    let interpreter = python::prepare(&places, arguments.python.as_deref(), !arguments.no_install)?;
-    let ours = ours::build(&places, arguments.against.as_deref())?;
-    let cgal = cgal::build(&places);
+    let league = match &arguments.from {
+        Some(path) => read(path)?,
+        None => league(arguments, &places)?,
+    };
+    write(&league, &places, &arguments.output)?;
+    if arguments.readme {
+        crate::section::write(&places.root.join("README.md"), "compare", &summary::short_table(&league))?;
+    }
+    league.verdict()
+}
+
+/// The data of an earlier run.
+fn read(path: &Path) -> Result<League, String> {
+    let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+    let text = std::fs::read_to_string(path).map_err(|error| failed(&error))?;
+    let league: League = serde_json::from_str(&text).map_err(|error| failed(&error))?;
+    if league.schema_version == league::SCHEMA_VERSION {
+        Ok(league)
+    } else {
+        Err(failed(&"was written by another version of this task"))
+    }
+}
+
+/// Runs everybody on every mesh.
+fn league(arguments: &Arguments, places: &Places) -> Result<League, String> {
+    let meshes = meshes::files(&arguments.meshes, places)?;
+    let interpreter = python::prepare(places, arguments.python.as_deref(), !arguments.no_install)?;
+    let ours = ours::prepare(places, arguments.qparam.as_deref(), arguments.against.as_deref())?;
+    let cgal = cgal::build(places);
 
     let mut contestants = ours.contestants();
-    let (rivals, mut absent) = python::contestants(&places, &interpreter);
+    let (rivals, mut absent) = python::contestants(places, &interpreter);
     contestants.extend(rivals);
     match &cgal {
         Ok(tool) => contestants.extend(tool.contestants()),
@@ -91,43 +131,47 @@ fn compare(arguments: &Arguments) -> Result<(), String> {
         |name: &str| arguments.only.is_empty() || arguments.only.iter().any(|word| name.contains(word));
     contestants.retain(|contestant| contestant.ours || wanted(&contestant.name));
 
-    let race =
-        Race { places: &places, interpreter: &interpreter, runs: arguments.runs, timeout: arguments.timeout };
-    let mut tables = Vec::new();
-    for (number, mesh) in meshes.iter().enumerate() {
-        let mut table = table(number, mesh, &contestants, &race, &ours)?;
-        if arguments.dominance {
-            table.dominance = dominance::against_all(mesh, &table.rows)?;
-        }
-        tables.push(table);
-    }
     let mut versions = vec![ours.version.clone(), interpreter.version.clone()];
     versions.extend(interpreter.packages.iter().filter_map(|package| package.installed.clone().ok()));
     versions.extend(cgal.iter().map(|tool| tool.version.clone()));
-    let league = League {
+    let mut league = League {
         schema_version: league::SCHEMA_VERSION,
+        arguments: told(arguments),
         machine: machine::describe(),
         versions,
         runs: arguments.runs,
         timeout_seconds: arguments.timeout,
         baseline: ours.baseline.clone(),
-        meshes: tables,
+        meshes: Vec::new(),
         absent,
     };
-    write(&league, &places.root.join(&arguments.output))?;
-    league.verdict()
+    let race = Race { places, interpreter: &interpreter, runs: arguments.runs, timeout: arguments.timeout };
+    for (number, mesh) in meshes.iter().enumerate() {
+        let mut table = table(number, mesh, &contestants, &race, &ours)?;
+        if arguments.dominance && table.about.not_a_disk.is_none() {
+            let mesh = settings::load(mesh)?;
+            table.grid = settings::grid(&mesh)?;
+            table.dominance = dominance::against_all(&mesh, &table.rows, &table.grid);
+        }
+        league.meshes.push(table);
+        // A long run that is interrupted keeps what it has.
+        save(&league, places, &arguments.output)?;
+    }
+    Ok(league)
 }
 
-/// The meshes to run on, as absolute paths.
-fn meshes(arguments: &Arguments, places: &Places) -> Result<Vec<PathBuf>, String> {
-    let fixtures = ["face.obj", "head.obj"].map(|name| places.root.join("fixtures").join(name));
-    let chosen = if arguments.meshes.is_empty() { &fixtures[..] } else { &arguments.meshes };
-    let absolute = |path: &PathBuf| {
-        std::path::absolute(path)
-            .and_then(|path| path.metadata().map(|_| path))
-            .map_err(|error| format!("{}: {error}", path.display()))
-    };
-    chosen.iter().map(absolute).collect()
+/// The arguments that matter to the result, meshes without their folders.
+fn told(arguments: &Arguments) -> String {
+    let mut words = vec![format!(" --runs {} --timeout {}", arguments.runs, arguments.timeout)];
+    if arguments.dominance {
+        words.push("--dominance".to_owned());
+    }
+    if !arguments.only.is_empty() {
+        words.push(format!("--only {}", arguments.only.join(",")));
+    }
+    let name = |mesh: &String| Path::new(mesh).file_name().unwrap_or_default().to_string_lossy().into_owned();
+    words.extend(arguments.meshes.iter().map(name));
+    words.join(" ")
 }
 
 fn table(
@@ -139,8 +183,7 @@ fn table(
 ) -> Result<MeshTable, String> {
     let name = mesh.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let about = python::inspect(race.places, race.interpreter, mesh)?;
-    let mut table =
-        MeshTable { name, about, rows: Vec::new(), disagreements: Vec::new(), dominance: Vec::new() };
+    let mut table = MeshTable { name, about, ..MeshTable::default() };
     if let Some(reason) = &table.about.not_a_disk {
         eprintln!("{}: refused, not a disk: {reason}", table.name);
         return Ok(table);
@@ -161,24 +204,41 @@ fn table(
             name: contestant.name.clone(),
             ours: contestant.ours,
             input: contestant.input.to_owned(),
+            boundary: contestant.boundary().to_owned(),
             outcome,
         });
     }
     Ok(table)
 }
 
-fn write(league: &League, output: &Path) -> Result<(), String> {
+/// All figures as JSON in `target/compare`, the times of this machine included.
+fn save(league: &League, places: &Places, output: &Path) -> Result<PathBuf, String> {
     let json = serde_json::to_string_pretty(league).map_err(|error| error.to_string())?;
-    if let Some(folder) = output.parent() {
-        std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    }
-    for (path, text) in
-        [(output.to_owned(), markdown::render(league)), (output.with_extension("json"), json + "\n")]
-    {
-        std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
-        println!("{}", path.display());
+    let path = places.data.join(output.with_extension("json").file_name().unwrap_or_default());
+    put(&path, &(json + "\n"))?;
+    Ok(path)
+}
+
+/// The table and its picture, which say nothing of the machine, and the data, which do.
+fn write(league: &League, places: &Places, output: &Path) -> Result<(), String> {
+    println!("{}", save(league, places, output)?.display());
+    let table = places.root.join(output);
+    let picture = table.with_extension("svg");
+    let drawn = front::picture(league);
+    let name = drawn.as_ref().and(picture.file_name()).map(|name| name.to_string_lossy().into_owned());
+    put(&table, &markdown::render(league, name.as_deref()))?;
+    println!("{}", table.display());
+    if let Some(drawn) = drawn {
+        put(&picture, &drawn)?;
+        println!("{}", picture.display());
     }
     Ok(())
+}
+
+fn put(path: &Path, text: &str) -> Result<(), String> {
+    let failed = |error: std::io::Error| format!("{}: {error}", path.display());
+    path.parent().map_or(Ok(()), std::fs::create_dir_all).map_err(failed)?;
+    std::fs::write(path, text).map_err(failed)
 }
 
 #[cfg(test)]

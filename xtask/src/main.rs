@@ -33,6 +33,11 @@ const TASKS: &[(&str, &str, Task)] = &[
         readings::run,
     ),
     (
+        "refine",
+        "does the map converge as the mesh is refined, or grow shear bands? into docs/tables/refine.md; --quick only shows",
+        refine::run,
+    ),
+    (
         "sweep",
         "distortion tables in the form of Table 1, into fixtures/tables/ and README.md; --check compares",
         sweep::run,
@@ -41,12 +46,15 @@ const TASKS: &[(&str, &str, Task)] = &[
 ];
 
 mod bench;
+mod chart;
 mod compare;
 mod disks;
 mod figure;
 mod fixtures;
 mod links;
 mod readings;
+mod refine;
+mod section;
 mod sweep;
 mod tidy;
 

@@ -1,9 +1,10 @@
 //! `cargo xtask sweep [MESHES…]`: distortion against q, in the form of the paper's Table 1.
 //!
-//! Without meshes, every fixture that is a disk is swept; the tables go to `fixtures/tables/`, their short form to
-//! `README.md`, and `--check` compares both with what is there. Figures have four digits, so that machines that round
+//! Without meshes, every fixture that is a disk is swept; the tables and the curves of Table 1 go to `fixtures/tables/`, their short
+//! form to `README.md`, the picture of the face and the head to `docs/figures/`, and `--check` compares all with what is there. Figures have four digits, so that machines that round
 //! sums differently write the same tables.
 
+mod curves;
 mod files;
 mod mesh_report;
 mod printed;
@@ -17,9 +18,11 @@ use clap::Parser;
 use qparam_cli::qmesh::QuadMesh;
 use qparam_cli::qmesh::obj::ObjDocument;
 use qparam_cli::qoptimize::Options;
-use qparam_cli::sweep::TABLE_1_Q;
+use qparam_cli::sweep::{Column, TABLE_1_Q};
 
 use mesh_report::MeshReport;
+
+use crate::{figure, section};
 
 /// Distortion against q for every method, in the form of the paper's Table 1.
 #[derive(Debug, Parser)]
@@ -81,6 +84,7 @@ fn sweep(arguments: &Arguments) -> Result<(), String> {
     let standard = !chosen && arguments.q == TABLE_1_Q && arguments.output.is_none();
     if standard {
         tables.push(("README.md".to_owned(), short::overview(&reports)));
+        tables.push(("curves.svg".to_owned(), curves::picture(&reports)));
     }
     let folder = match &arguments.output {
         Some(folder) => folder.clone(),
@@ -91,10 +95,15 @@ fn sweep(arguments: &Arguments) -> Result<(), String> {
     let short = short::table(&reports);
     if arguments.check {
         files::compare(&folder, &tables, &["search.md"])?;
-        return files::compare_section(&readme, &short);
+        section::compare(&readme, "sweep", &short)?;
+        return figure::check();
     }
     files::write(&folder, &tables)?;
-    if standard { files::write_section(&readme, &short) } else { Ok(()) }
+    if standard {
+        section::write(&readme, "sweep", &short)?;
+        figure::write()?;
+    }
+    Ok(())
 }
 
 /// The reading of the paper's method that shows most of Table 1, and the direct method: names and options for a mesh.

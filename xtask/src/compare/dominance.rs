@@ -1,24 +1,24 @@
 //! For every valid rival: the setting of our dials that comes nearest to beating it in everything at once.
 
-use std::path::Path;
-
 use qparam_cli::qmesh::QuadMesh;
-use qparam_cli::qmesh::obj::ObjDocument;
-use qparam_cli::qoptimize::{AngleTerm, Method, Options, parameterize};
-use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::league::{Measures, Outcome, Row};
+use super::settings::{self, Setting, Spot};
 
-const Q: [f64; 7] = [0.9999, 0.99, 0.95, 0.8, 0.5, 0.2, 0.05];
-const SHAPE: [f64; 8] = [10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01, 0.001];
 /// The largest ratio that still counts as no worse.
 pub(super) const TOLERANCE: f64 = 1.02;
+/// The settings of the grid that are tried, the best by its own figures first.
+const CANDIDATES: usize = 3;
+/// Steps of the closer look where the grid has no point that is no worse, as factors.
+const STEPS: [f64; 5] = [2.0, 1.5, 1.5, 1.2, 1.1];
 
 /// Our point that is nearest to dominating a rival's.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub(super) struct Dominance {
     pub(super) rival: String,
+    /// Whether the rival's map is valid.
+    pub(super) valid: bool,
     /// The setting, as options of `qparam unwrap`.
     pub(super) setting: String,
     /// Ours over the rival's: angle error, area error, symmetric Dirichlet.
@@ -32,78 +32,109 @@ impl Dominance {
     }
 }
 
-/// One of our maps.
-struct Point {
-    setting: String,
-    errors: [f64; 3],
+/// The best of our maps against each rival in one island, valid or not: at a setting of the grid, or near one where none is no
+/// worse. The ratios are those of the map that `qparam unwrap` makes with that setting.
+pub(super) fn against_all(mesh: &QuadMesh, rows: &[Row], grid: &[Spot]) -> Vec<Dominance> {
+    let mut known: Vec<(String, Option<Spot>)> = Vec::new();
+    let mut released = |setting: Setting| {
+        let options = setting.options();
+        if let Some((_, spot)) = known.iter().find(|(name, _)| *name == options) {
+            return spot.clone();
+        }
+        let spot = settings::as_released(mesh, setting);
+        known.push((options, spot.clone()));
+        spot
+    };
+    let best = |row: &Row| {
+        let (valid, errors) = rival(row)?;
+        let (spot, ratios) = nearest(errors, grid, &mut released)?;
+        Some(Dominance { rival: row.name.clone(), valid, setting: spot.options, ratios })
+    };
+    rows.iter().filter_map(best).collect()
 }
 
-/// Maps `mesh` with every setting of the grid and finds the best against each valid rival in one island.
-pub(super) fn against_all(mesh: &Path, rows: &[Row]) -> Result<Vec<Dominance>, String> {
-    let rivals: Vec<(&str, [f64; 3])> = rows.iter().filter_map(rival).collect();
-    if rivals.is_empty() {
-        return Ok(Vec::new());
-    }
-    let points = points(mesh)?;
-    Ok(rivals.into_iter().filter_map(|(name, errors)| nearest(name, errors, &points)).collect())
-}
-
-/// The errors of a rival's valid map in one piece; a cut map pays for small errors with its seams.
-fn rival(row: &Row) -> Option<(&str, [f64; 3])> {
+/// Validity and errors of a rival's map in one piece; a cut map pays for small errors with its seams.
+fn rival(row: &Row) -> Option<(bool, [f64; 3])> {
     let Outcome::Measured(figures) = &row.outcome else { return None };
-    let counts = !row.ours && figures.measures.is_valid() && figures.measures.islands == 1;
-    (counts && figures.torn_quads == 0).then_some((row.name.as_str(), errors(&figures.measures)?))
+    let counts = !row.ours && figures.torn_quads == 0 && figures.measures.islands == 1;
+    counts.then_some((figures.measures.is_valid(), errors(&figures.measures)?))
 }
 
-fn errors(measures: &Measures) -> Option<[f64; 3]> {
+/// Those that count here.
+pub(super) fn errors(measures: &Measures) -> Option<[f64; 3]> {
     Some([measures.angle_error, measures.area_error, measures.symmetric_dirichlet?])
 }
 
-fn nearest(rival: &str, theirs: [f64; 3], points: &[Point]) -> Option<Dominance> {
-    let versus = |point: &Point| Dominance {
-        rival: rival.to_owned(),
-        setting: point.setting.clone(),
-        ratios: std::array::from_fn(|k| point.errors[k] / theirs[k]),
+/// The map whose worst ratio to `theirs` is least, and its ratios.
+fn nearest(
+    theirs: [f64; 3],
+    grid: &[Spot],
+    released: &mut dyn FnMut(Setting) -> Option<Spot>,
+) -> Option<(Spot, [f64; 3])> {
+    let ratios = |spot: &Spot| -> [f64; 3] { std::array::from_fn(|k| spot.errors[k] / theirs[k]) };
+    let worst = |spot: &Spot| ratios(spot).into_iter().fold(0.0, f64::max);
+    let mut candidates: Vec<&Spot> = grid.iter().collect();
+    candidates.sort_by(|a, b| worst(a).total_cmp(&worst(b)));
+    let mut best: Option<Spot> = None;
+    let mut take = |best: &mut Option<Spot>, setting: Setting| {
+        let found = released(setting);
+        if let Some(spot) = found.filter(|spot| best.as_ref().is_none_or(|best| worst(spot) < worst(best))) {
+            *best = Some(spot);
+        }
     };
-    points.iter().map(versus).min_by(|a, b| a.worst().total_cmp(&b.worst()))
-}
-
-fn points(mesh: &Path) -> Result<Vec<Point>, String> {
-    let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", mesh.display());
-    let document = ObjDocument::from_path(mesh).map_err(|error| failed(&error))?;
-    let mesh = QuadMesh::build(document.polygons()).map_err(|error| failed(&error))?;
-    let settings: Vec<(f64, f64, AngleTerm)> = [AngleTerm::Log, AngleTerm::Paper]
-        .into_iter()
-        .flat_map(|term| Q.into_iter().flat_map(move |q| SHAPE.map(|shape| (q, shape, term))))
-        .collect();
-    Ok(settings.into_par_iter().filter_map(|setting| point(&mesh, setting)).collect())
-}
-
-/// Nothing where the map is not valid: it would not be released either.
-fn point(mesh: &QuadMesh, (q, shape, angle_term): (f64, f64, AngleTerm)) -> Option<Point> {
-    let mut options = Options { method: Method::Direct, q, ..Options::default() };
-    options.direct.shape = shape;
-    options.direct.angle_term = angle_term;
-    let distortion = parameterize(mesh, &options, &()).ok()?.distortion;
-    let is_valid = distortion.flipped_corners == 0 && distortion.boundary_crossings == 0;
-    let term = if angle_term == AngleTerm::Paper { " --angle-term paper" } else { "" };
-    is_valid.then_some(Point {
-        setting: format!("--q {q} --shape {shape}{term}"),
-        errors: [distortion.angle_error, distortion.area_error, distortion.symmetric_dirichlet?],
-    })
+    let is_enough = |best: &Option<Spot>| best.as_ref().is_some_and(|spot| worst(spot) <= TOLERANCE);
+    for candidate in candidates.into_iter().take(CANDIDATES) {
+        if is_enough(&best) {
+            break;
+        }
+        take(&mut best, candidate.setting);
+    }
+    for step in STEPS {
+        let Some(centre) = best.as_ref().filter(|spot| worst(spot) > TOLERANCE).map(|spot| spot.setting)
+        else {
+            break;
+        };
+        settings::around(centre, step).into_iter().for_each(|setting| take(&mut best, setting));
+    }
+    let best = best?;
+    let ratios = ratios(&best);
+    Some((best, ratios))
 }
 
 #[cfg(test)]
 mod tests {
+    use qparam_cli::qoptimize::AngleTerm;
+
     use super::*;
 
-    /// The point whose worst ratio is least wins, not the one that is best in one figure.
+    fn spot(q: f64, errors: [f64; 3]) -> Spot {
+        let setting = Setting::new(q, 1.0, AngleTerm::Log);
+        Spot { setting, options: setting.options(), errors }
+    }
+
+    /// The point whose worst ratio is least wins, not the one that is best in one figure; and where one is no worse, no more maps
+    /// are made.
     #[test]
     fn the_nearest_point_is_the_least_bad_in_its_worst_error() {
-        let point = |setting: &str, errors| Point { setting: setting.to_owned(), errors };
-        let points = [point("best angles", [0.1, 3.0, 1.0]), point("even", [0.9, 1.01, 1.0])];
-        let found = nearest("rival", [1.0, 1.0, 1.0], &points).unwrap();
-        assert_eq!((found.setting.as_str(), found.worst()), ("even", 1.01));
-        assert!(nearest("rival", [1.0, 1.0, 1.0], &[]).is_none());
+        let spots = [spot(0.9, [0.1, 3.0, 1.0]), spot(0.5, [0.9, 1.01, 1.0])];
+        let mut asked = Vec::new();
+        let mut released = |setting: Setting| {
+            asked.push(setting.options());
+            spots.iter().find(|spot| spot.setting == setting).cloned()
+        };
+        let (found, ratios) = nearest([1.0, 2.0, 1.0], &spots, &mut released).unwrap();
+        assert_eq!((found.options.as_str(), ratios), ("--q 0.5 --shape 1", [0.9, 0.505, 1.0]));
+        assert!(nearest([1.0, 1.0, 1.0], &[], &mut released).is_none());
+        assert_eq!(asked, ["--q 0.5 --shape 1"]);
+    }
+
+    /// What counts is the map as it is released, whatever the grid says of it; and the closer look takes what is better, from there
+    /// on, and nothing that is worse.
+    #[test]
+    fn a_closer_look_follows_the_better_point() {
+        let q = |setting: Setting| -> f64 { setting.options().split(' ').nth(1).unwrap().parse().unwrap() };
+        let mut released = |setting: Setting| Some(spot(q(setting), [0.7 / q(setting), 1.0, 1.0]));
+        let (found, ratios) = nearest([1.0, 1.0, 1.0], &[spot(0.3, [0.1, 0.1, 0.1])], &mut released).unwrap();
+        assert!(q(found.setting) > 0.68 && ratios[0] <= TOLERANCE, "{found:?}");
     }
 }

@@ -5,14 +5,17 @@ use serde::{Deserialize, Serialize};
 use super::contestant::Absent;
 use super::dominance::Dominance;
 use super::machine::Machine;
+use super::settings::Spot;
 
 /// Changes when a field of the JSON is renamed, removed, or means something else.
-pub(super) const SCHEMA_VERSION: u32 = 1;
+pub(super) const SCHEMA_VERSION: u32 = 2;
 
 /// Everything.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub(super) struct League {
     pub(super) schema_version: u32,
+    /// What the task was told, without folders.
+    pub(super) arguments: String,
     pub(super) machine: Machine,
     pub(super) versions: Vec<String>,
     pub(super) runs: u32,
@@ -25,20 +28,23 @@ pub(super) struct League {
 }
 
 /// One mesh.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub(super) struct MeshTable {
     pub(super) name: String,
     pub(super) about: About,
     pub(super) rows: Vec<Row>,
     /// Where `qparam measure` and the independent script differ.
     pub(super) disagreements: Vec<String>,
-    /// Our best setting against each valid rival, when it was asked for.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    /// Our maps over the settings of `direct`, when they were asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) grid: Vec<Spot>,
+    /// Our best setting against each rival in one island, when it was asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) dominance: Vec<Dominance>,
 }
 
 /// What a mesh is.
-#[derive(Clone, Debug, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub(super) struct About {
     pub(super) vertices: usize,
     pub(super) faces: usize,
@@ -48,17 +54,19 @@ pub(super) struct About {
 }
 
 /// One method on one mesh.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub(super) struct Row {
     pub(super) name: String,
     pub(super) ours: bool,
     /// How quads reach it.
     pub(super) input: String,
+    /// What it does with the boundary.
+    pub(super) boundary: String,
     pub(super) outcome: Outcome,
 }
 
 /// How it went.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Outcome {
     /// No result.
@@ -68,7 +76,7 @@ pub(super) enum Outcome {
 }
 
 /// A result's figures; times and memory are medians.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub(super) struct Figures {
     #[serde(flatten)]
     pub(super) measures: Measures,
@@ -99,6 +107,13 @@ pub(super) struct Measures {
     pub(super) flipped_faces: usize,
     pub(super) folded_faces: usize,
     pub(super) boundary_crossings: usize,
+}
+
+impl MeshTable {
+    /// The file's name without its ending.
+    pub(super) fn title(&self) -> String {
+        self.name.trim_end_matches(".obj").to_owned()
+    }
 }
 
 impl Measures {

@@ -1,9 +1,9 @@
 //! What machine this is.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Enough to judge times by; no date, no name, no path.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub(crate) struct Machine {
     pub(crate) processor: String,
     pub(crate) threads: usize,

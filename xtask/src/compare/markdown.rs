@@ -1,13 +1,14 @@
-//! The league as Markdown.
+//! The league as Markdown. It says nothing of the machine: times and memory are ratios.
 
 use super::agreement::TOLERANCE;
-use super::dominance::{self, Dominance};
 use super::league::{Figures, League, MeshTable, Outcome, Row};
-use super::numbers::{against, count_against, short};
+use super::numbers::{against, count_against, ratio, short};
+use super::summary;
 
-/// The column titles; the first is left-aligned.
+/// The column titles; the first two are left-aligned.
 const COLUMNS: &[&str] = &[
     "method",
+    "boundary",
     "valid",
     "angle error (Eq. 13)",
     "area error (Eq. 14)",
@@ -17,14 +18,21 @@ const COLUMNS: &[&str] = &[
     "boundary crossings",
     "torn quads",
     "islands",
-    "solve, s",
-    "process, s",
-    "memory, MB",
+    "solve",
+    "process",
+    "memory",
 ];
 
-/// The whole document.
-pub(super) fn render(league: &League) -> String {
+/// The whole document; `picture` is the file of the fronts.
+pub(super) fn render(league: &League, picture: Option<&str>) -> String {
     let mut text = header(league);
+    text += &summary::section(league);
+    if let Some(name) = picture {
+        text += &format!(
+            "\n![Angle error against area error on each mesh]({name})\n\n\
+             *Each dot of ours is one setting of `direct`; the star is its default.*\n"
+        );
+    }
     for mesh in &league.meshes {
         text += &section(mesh, &league.baseline);
     }
@@ -38,28 +46,24 @@ pub(super) fn render(league: &League) -> String {
 }
 
 fn header(league: &League) -> String {
-    let machine = &league.machine;
-    let memory = machine.memory_gib.map_or_else(String::new, |gib| format!(", {gib} GiB"));
     format!(
         "# League table of UV maps on quad meshes\n\n\
-         Made by `cargo xtask compare`; do not edit.\n\n\
-         - Machine: {}, {} hardware threads{memory}, {}\n\
+         Written by `cargo xtask compare{}`; do not edit.\n\n\
          - Versions: {}\n\
-         - Runs: {} of each method on each mesh, in alternating order, each in a process of its own, ended after {} s; \
-         times and memory are medians\n\
+         - Runs: {} of each method on each mesh, in alternating order, each in a process of its own, ended after {} s\n\
          - In brackets: how many times the figure of `{}` (bold), or how many more where that is 0. Less is better \
          in every column\n\n\
          Every tool gets the same quad mesh, triangulated as its users do it; its UVs are mapped back to the corners of \
-         the quads. **Valid**: no corner flipped, no face folded, no island's boundary crossing itself. **Flipped \
+         the quads. **Boundary**: left free, on a circle, or that of charts which the tool cuts itself. **Valid**: no corner \
+         flipped, no face folded, no island's boundary crossing itself. **Flipped \
          corners**: of the four triangles that a quad's corners make, those of no positive area. **Folded faces**: quads \
          of which neither diagonal gives two positive triangles. **Torn quads**: quads whose two triangles went to \
          different places; they are measured as two triangles. Errors are sums; those of a map in many islands are small \
-         because its cuts pay for them. **Solve**: the computation alone. **Process**: with starting, reading and \
-         writing. **Memory**: the largest resident set of the process.\n\n\
+         because its cuts pay for them. **Solve** (the computation alone), **process** (with starting, reading and \
+         writing) and **memory** (the largest resident set of the process) are medians over ours: the machine was shared with other \
+         work, and a factor of two means nothing.\n\n\
          All results were measured by `qparam measure` and by an independent script; {}.\n",
-        machine.processor,
-        machine.threads,
-        machine.system,
+        league.arguments,
         league.versions.join(", "),
         league.runs,
         league.timeout_seconds,
@@ -76,7 +80,10 @@ fn section(mesh: &MeshTable, baseline: &str) -> String {
     let about = &mesh.about;
     let mut text = format!(
         "\n## {}\n\n{} vertices, {} faces, {} of them quads",
-        mesh.name, about.vertices, about.faces, about.quads
+        mesh.title(),
+        about.vertices,
+        about.faces,
+        about.quads
     );
     if let Some(reason) = &about.not_a_disk {
         return text + &format!("\n\nRefused: not a disk ({reason}).\n");
@@ -85,40 +92,20 @@ fn section(mesh: &MeshTable, baseline: &str) -> String {
         Outcome::Measured(figures) if row.name == baseline => Some(figures.as_ref()),
         _ => None,
     });
-    text += "\n\n";
+    text += ".\n\n";
     text += &line(COLUMNS.iter().map(|&title| title.to_owned()));
-    text += &line(COLUMNS.iter().enumerate().map(|(i, _)| if i == 0 { "---" } else { "---:" }.to_owned()));
+    text += &line(COLUMNS.iter().enumerate().map(|(i, _)| if i < 2 { "---" } else { "---:" }.to_owned()));
     for row in &mesh.rows {
         text += &line(cells(row, if row.name == baseline { None } else { ours }, row.name == baseline));
     }
     text += &notes(mesh);
-    text += &dominance_table(&mesh.dominance);
+    text += &summary::defaults_table(mesh, baseline);
+    text += &summary::dominance_table(&mesh.dominance);
     text
 }
 
-/// Our best setting against each valid rival.
-fn dominance_table(dominance: &[Dominance]) -> String {
-    if dominance.is_empty() {
-        return String::new();
-    }
-    let beaten = dominance.iter().filter(|found| found.worst() <= dominance::TOLERANCE).count();
-    let mut text = format!(
-        "\nOver the settings of `direct`, one is no worse than {beaten} of the {} valid rivals in one island in all three errors \
-         at once (within 2 %). The nearest for each, ours over theirs:\n\n",
-        dominance.len()
-    );
-    let titles = ["rival", "setting", "angle error", "area error", "symmetric Dirichlet", "worst"];
-    text += &line(titles.map(str::to_owned));
-    text += &line(["---", "---", "---:", "---:", "---:", "---:"].map(str::to_owned));
-    for found in dominance {
-        let ratios = found.ratios.map(short);
-        let names = [found.rival.clone(), format!("`{}`", found.setting)];
-        text += &line(names.into_iter().chain(ratios).chain([short(found.worst())]));
-    }
-    text
-}
-
-fn line(cells: impl IntoIterator<Item = String>) -> String {
+/// A line of a table.
+pub(super) fn line(cells: impl IntoIterator<Item = String>) -> String {
     format!("| {} |\n", cells.into_iter().collect::<Vec<_>>().join(" | "))
 }
 
@@ -126,31 +113,46 @@ fn cells(row: &Row, ours: Option<&Figures>, baseline: bool) -> Vec<String> {
     let name = if baseline { format!("**{}**", row.name) } else { row.name.clone() };
     match &row.outcome {
         Outcome::Failed { message } => {
-            let mut cells = vec![name, format!("failed: {}", one_line(message))];
+            let mut cells = vec![name, row.boundary.clone(), format!("failed: {}", one_line(message))];
             cells.resize(COLUMNS.len(), String::new());
             cells
         }
-        Outcome::Measured(figures) => [name].into_iter().chain(figure_cells(figures, ours)).collect(),
+        Outcome::Measured(figures) => {
+            [name, row.boundary.clone()].into_iter().chain(figure_cells(figures, ours)).collect()
+        }
     }
 }
 
 fn figure_cells(figures: &Figures, ours: Option<&Figures>) -> Vec<String> {
     let real = |value: &dyn Fn(&Figures) -> f64| against(value(figures), ours.map(value));
     let count = |value: &dyn Fn(&Figures) -> usize| count_against(value(figures), ours.map(value));
+    let cost = |value: &dyn Fn(&Figures) -> f64| {
+        ours.map_or_else(|| "1".to_owned(), |ours| ratio(value(figures) / value(ours)))
+    };
     vec![
-        if figures.measures.is_valid() { "yes" } else { "no" }.to_owned(),
+        yes(figures.measures.is_valid()),
         real(&|f| f.measures.angle_error),
         real(&|f| f.measures.area_error),
-        real(&|f| f.measures.symmetric_dirichlet.unwrap_or(f64::NAN)),
+        figures.measures.symmetric_dirichlet.map_or_else(
+            || "–".to_owned(),
+            |stretch| {
+                let theirs = ours.and_then(|ours| ours.measures.symmetric_dirichlet);
+                theirs.map_or_else(|| short(stretch), |ours| against(stretch, Some(ours)))
+            },
+        ),
         count(&|f| f.measures.flipped_corners),
         count(&|f| f.measures.folded_faces),
         count(&|f| f.measures.boundary_crossings),
         count(&|f| f.torn_quads),
         count(&|f| f.measures.islands),
-        real(&|f| f.solve_seconds),
-        real(&|f| f.process_seconds),
-        real(&|f| f.peak_memory_bytes as f64 / 1e6),
+        cost(&|f| f.solve_seconds),
+        cost(&|f| f.process_seconds),
+        cost(&|f| f.peak_memory_bytes as f64),
     ]
+}
+
+pub(super) fn yes(holds: bool) -> String {
+    if holds { "yes" } else { "no" }.to_owned()
 }
 
 fn notes(mesh: &MeshTable) -> String {

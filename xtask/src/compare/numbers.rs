@@ -49,3 +49,12 @@ pub(super) fn count_against(value: usize, ours: Option<usize>) -> String {
         _ => value.to_string(),
     }
 }
+
+/// A ratio of times or memory, which are noisy: two digits.
+pub(super) fn ratio(value: f64) -> String {
+    match value {
+        large if large >= 9.95 => format!("{large:.0}"),
+        middle if middle >= 0.0995 => format!("{middle:.1}"),
+        small => format!("{small:.2}"),
+    }
+}

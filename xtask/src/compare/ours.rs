@@ -1,4 +1,4 @@
-//! `qparam` itself: built in release mode, its methods read from its help.
+//! `qparam` itself: built in release mode, or given; its methods read from its help.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -11,6 +11,9 @@ use super::places::Places;
 use super::race::Account;
 use super::shell;
 
+/// The preset that minimises what SLIM and Blender's minimum stretch minimise, nearly alone: `--shape 10`.
+pub(super) const LEAST_STRETCH: &str = "qparam-least-stretch";
+
 /// The built binary.
 pub(super) struct Qparam {
     pub(super) version: String,
@@ -20,8 +23,28 @@ pub(super) struct Qparam {
     methods: Vec<String>,
 }
 
-/// Builds `qparam` and asks it which methods it has.
-pub(super) fn build(places: &Places, against: Option<&str>) -> Result<Qparam, String> {
+/// Asks a `qparam` which methods it has; builds one unless it is given.
+pub(super) fn prepare(
+    places: &Places,
+    built: Option<&Path>,
+    against: Option<&str>,
+) -> Result<Qparam, String> {
+    let binary = match built {
+        Some(path) => std::path::absolute(path).map_err(|error| format!("{}: {error}", path.display()))?,
+        None => build(places)?,
+    };
+    let help = shell::output(Command::new(&binary).args(["unwrap", "-h"]))?;
+    let (methods, default) =
+        methods(&help).ok_or("`qparam unwrap -h` does not list the values of --method")?;
+    let baseline = against.map_or(default, str::to_owned);
+    if !methods.contains(&baseline) {
+        return Err(format!("qparam has no method {baseline}; it has {}", methods.join(", ")));
+    }
+    let version = shell::output(Command::new(&binary).arg("--version"))?.trim().to_owned();
+    Ok(Qparam { version, baseline: named(&baseline), binary, methods })
+}
+
+fn build(places: &Places) -> Result<PathBuf, String> {
     let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
     let mut command = Command::new(cargo);
     command.current_dir(&places.root).args([
@@ -36,16 +59,7 @@ pub(super) fn build(places: &Places, against: Option<&str>) -> Result<Qparam, St
     if !status.success() {
         return Err("qparam did not build".to_owned());
     }
-    let binary = places.target.join("release").join(format!("qparam{}", std::env::consts::EXE_SUFFIX));
-    let help = shell::output(Command::new(&binary).args(["unwrap", "-h"]))?;
-    let (methods, default) =
-        methods(&help).ok_or("`qparam unwrap -h` does not list the values of --method")?;
-    let baseline = against.map_or(default, str::to_owned);
-    if !methods.contains(&baseline) {
-        return Err(format!("qparam has no method {baseline}; it has {}", methods.join(", ")));
-    }
-    let version = shell::output(Command::new(&binary).arg("--version"))?.trim().to_owned();
-    Ok(Qparam { version, baseline: named(&baseline), binary, methods })
+    Ok(places.target.join("release").join(format!("qparam{}", std::env::consts::EXE_SUFFIX)))
 }
 
 fn named(method: &str) -> String {
@@ -65,19 +79,20 @@ pub(super) fn methods(help: &str) -> Option<(Vec<String>, String)> {
 impl Qparam {
     /// The baseline first.
     pub(super) fn contestants(&self) -> Vec<Contestant> {
-        let mut contestants: Vec<Contestant> =
-            self.methods.iter().map(|method| self.contestant(method)).collect();
+        let methods = self.methods.iter().map(|method| self.contestant(&named(method), ["--method", method]));
+        let mut contestants: Vec<Contestant> = methods.collect();
+        contestants.push(self.contestant(LEAST_STRETCH, ["--preset", "least-stretch"]));
         contestants.sort_by_key(|contestant| contestant.name != self.baseline);
         contestants
     }
 
-    fn contestant(&self, method: &str) -> Contestant {
+    fn contestant(&self, name: &str, choice: [&str; 2]) -> Contestant {
         Contestant {
-            name: named(method),
+            name: name.to_owned(),
             ours: true,
             input: "quads",
             program: self.binary.clone(),
-            leading: ["unwrap", "--no-config", "--json", "--method", method].map(Into::into).to_vec(),
+            leading: ["unwrap", "--no-config", "--json"].into_iter().chain(choice).map(Into::into).collect(),
         }
     }
 

@@ -12,6 +12,10 @@ pub(super) struct Places {
     pub(super) scripts: PathBuf,
     /// The virtual environment.
     pub(super) venv: PathBuf,
+    /// Results as data.
+    pub(super) data: PathBuf,
+    /// Meshes from formulas.
+    pub(super) meshes: PathBuf,
     /// One folder a mesh, in it one set of files a method.
     pub(super) runs: PathBuf,
     /// What tools write uncalled for: caches, settings, temporary files.
@@ -27,12 +31,14 @@ impl Places {
         let places = Self {
             scripts: root.join("xtask").join("compare"),
             venv: own.join("venv"),
+            meshes: own.join("meshes"),
+            data: own.clone(),
             runs: own.join("runs"),
             scratch: own.join("scratch"),
             root,
             target,
         };
-        for folder in [&places.runs, &places.home(), &places.temporary()] {
+        for folder in [&places.meshes, &places.runs, &places.home(), &places.temporary()] {
             std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
         }
         Ok(places)

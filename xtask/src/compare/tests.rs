@@ -4,10 +4,11 @@ use std::process::Command;
 
 use super::agreement::{self, Independent};
 use super::contestant::Absent;
+use super::dominance::Dominance;
 use super::league::{About, Figures, League, Measures, MeshTable, Outcome, Row};
 use super::machine::{self, Machine};
 use super::numbers::{against, count_against, median, short};
-use super::{markdown, ours, race, shell};
+use super::{defaults, markdown, ours, race, shell};
 
 fn measures(angle_error: f64) -> Measures {
     Measures {
@@ -37,13 +38,15 @@ fn figures(measures: Measures) -> Outcome {
 }
 
 fn row(name: &str, outcome: Outcome) -> Row {
-    Row { name: name.to_owned(), ours: name.starts_with("qparam"), input: "quads".to_owned(), outcome }
+    let (input, boundary) = ("quads".to_owned(), "free".to_owned());
+    Row { name: name.to_owned(), ours: name.starts_with("qparam"), input, boundary, outcome }
 }
 
 fn league(rows: Vec<Row>) -> League {
     let about = About { vertices: 18, faces: 10, quads: 10, not_a_disk: None };
     League {
-        schema_version: 1,
+        schema_version: 2,
+        arguments: " --runs 3 m.obj".to_owned(),
         machine: Machine {
             processor: "Model X".to_owned(),
             threads: 2,
@@ -54,13 +57,7 @@ fn league(rows: Vec<Row>) -> League {
         runs: 3,
         timeout_seconds: 60.0,
         baseline: "qparam-paper".to_owned(),
-        meshes: vec![MeshTable {
-            name: "m.obj".to_owned(),
-            about,
-            rows,
-            disagreements: Vec::new(),
-            dominance: Vec::new(),
-        }],
+        meshes: vec![MeshTable { name: "m.obj".to_owned(), about, rows, ..MeshTable::default() }],
         absent: vec![Absent { tool: "CGAL".to_owned(), why: "no headers\nsecond line".to_owned() }],
     }
 }
@@ -107,21 +104,88 @@ fn rows_of_the_table() {
         row("rival-b", Outcome::Failed { message: "Error: a | b\nmore".to_owned() }),
     ]);
     assert_eq!(league.verdict(), Ok(()), "a rival that fails is a row, not a failure of the task");
-    let text = markdown::render(&league);
+    let text = markdown::render(&league, None);
     assert_eq!(
         line(&text, "| **qparam-paper**"),
-        "| **qparam-paper** | yes | 2.00 | 8.00 | 1.25 | 0 | 0 | 0 | 0 | 1 | 0.500 | 1.00 | 20.0 |"
+        "| **qparam-paper** | free | yes | 2.00 | 8.00 | 1.25 | 0 | 0 | 0 | 0 | 1 | 1 | 1 | 1 |"
     );
     assert_eq!(
         line(&text, "| rival-a"),
-        "| rival-a | no | 4.00 (×2.00) | 8.00 (×1.00) | 1.25 (×1.00) | 3 (+3) | 0 | 0 | 0 | 1 | 0.500 (×1.00) | \
-         1.00 (×1.00) | 20.0 (×1.00) |"
+        "| rival-a | free | no | 4.00 (×2.00) | 8.00 (×1.00) | 1.25 (×1.00) | 3 (+3) | 0 | 0 | 0 | 1 | 1.0 | 1.0 | 1.0 |"
     );
-    assert!(line(&text, "| rival-b").starts_with("| rival-b | failed: Error: a \\| b |"));
+    assert!(line(&text, "| rival-b").starts_with("| rival-b | free | failed: Error: a \\| b |"));
     assert_eq!(line(&text, "- CGAL"), "- CGAL: no headers");
     let pipes = |line: &str| line.replace("\\|", "").matches('|').count();
     let table: Vec<usize> = text.lines().filter(|line| line.starts_with('|')).map(pipes).collect();
-    assert_eq!(table, [14; 5], "every row has every column");
+    assert_eq!(table, [15; 5], "every row has every column");
+}
+
+/// The table says nothing of the machine, so that it reads the same wherever it was made.
+#[test]
+fn no_machine_in_the_table() {
+    let league = league(vec![row("qparam-paper", figures(measures(2.0)))]);
+    let text = markdown::render(&league, Some("fronts.svg"));
+    assert!(!text.contains("Model X") && !text.contains("24 GiB"), "{text}");
+    assert!(text.contains("](fronts.svg)") && text.contains("`cargo xtask compare --runs 3 m.obj`"));
+}
+
+/// A map of ours with these errors, and a rival's.
+fn with_errors(name: &str, [angle_error, area_error, stretch]: [f64; 3]) -> Row {
+    row(name, figures(Measures { area_error, symmetric_dirichlet: Some(stretch), ..measures(angle_error) }))
+}
+
+/// Both errors no larger, symmetric Dirichlet within 5 %, and within 2 % with the preset for least stretch; against conformal maps
+/// only the sum counts, and methods that aim at neither are left out.
+#[test]
+fn what_the_defaults_are_to_hold() {
+    let rows = |ours: [f64; 3], least: f64| {
+        let names = ["libigl-slim", "blender-abf", "cgal-lscm", "libigl-arap"];
+        let errors = [[2.0, 8.0, 1.25], [1.0, 20.0, 3.0], [1.0, 8.5, 3.0], [1.0, 1.0, 1.0]];
+        let theirs = names.into_iter().zip(errors).map(|(name, errors)| with_errors(name, errors));
+        let ours = [with_errors("qparam-paper", ours), with_errors(ours::LEAST_STRETCH, [9.0, 9.0, least])];
+        league(ours.into_iter().chain(theirs).collect())
+    };
+    let held = |league: &League| -> Vec<bool> {
+        defaults::versus(&league.meshes[0], "qparam-paper").iter().map(defaults::Versus::holds).collect()
+    };
+    assert_eq!(held(&rows([2.0, 7.0, 1.31], 1.27)), [true, true, true]);
+    assert_eq!(held(&rows([2.1, 7.0, 1.31], 1.27)), [false, true, true], "angles");
+    assert_eq!(held(&rows([2.0, 7.0, 1.32], 1.27)), [false, true, true], "5 %");
+    assert_eq!(held(&rows([2.0, 7.0, 1.31], 1.28)), [false, true, true], "2 %");
+    assert_eq!(held(&rows([2.0, 7.9, 1.31], 1.27)), [true, true, false], "the sum");
+    let text = markdown::render(&rows([2.0, 7.0, 1.31], 1.27), None);
+    assert_eq!(
+        line(&text, "| libigl-slim | yes | 1 |"),
+        "| libigl-slim | yes | 1 | 1.00 | 0.875 | 1.05 | 1.02 |  | yes |"
+    );
+    assert_eq!(
+        line(&text, "| m | 10 |"),
+        "| m | 10 | 1.00, 0.875, 1.05 | 1.02 | – | – | 0.947 | 0 of 0 | – | 0 of 0 | – |"
+    );
+}
+
+/// Counted are valid maps and others apart; what is worse than the tolerance does not count.
+#[test]
+fn dominance_is_counted() {
+    let found = |rival: &str, valid, worst| Dominance {
+        rival: rival.to_owned(),
+        valid,
+        setting: "--q 0.5 --shape 1".to_owned(),
+        ratios: [0.5, worst, 1.0],
+    };
+    let mut league = league(vec![
+        row("qparam-paper", figures(measures(2.0))),
+        with_errors("libigl-slim", [2.0, 8.0, 1.25]),
+    ]);
+    league.meshes[0].dominance =
+        vec![found("a", true, 1.019), found("b", true, 1.021), found("c", false, 1.0)];
+    let text = markdown::render(&league, None);
+    assert!(
+        text.contains("no worse than 1 of the 2 valid maps in one island, and than 1 of the 1"),
+        "{text}"
+    );
+    assert!(line(&text, "| m | 10 |").ends_with("| 1 of 2 | 1.02 | 1 of 1 | 1.00 |"), "{text}");
+    assert_eq!(line(&text, "| b "), "| b | yes | `--q 0.5 --shape 1` | 0.500 | 1.02 | 1.00 | 1.02 |");
 }
 
 /// Without our own result there is nothing to compare with: the rivals' figures stand, the task fails.
@@ -132,7 +196,7 @@ fn no_ratios_when_ours_failed() {
         row("rival-a", figures(measures(4.0))),
     ]);
     assert_eq!(league.verdict(), Err("m.obj: qparam-paper failed: no".to_owned()));
-    let text = markdown::render(&league);
+    let text = markdown::render(&league, None);
     assert!(line(&text, "| rival-a").contains("| 4.00 |"));
 }
 
@@ -140,7 +204,7 @@ fn no_ratios_when_ours_failed() {
 fn a_mesh_that_is_no_disk_is_listed_as_refused() {
     let mut league = league(Vec::new());
     league.meshes[0].about.not_a_disk = Some("closed".to_owned());
-    assert!(markdown::render(&league).contains("Refused: not a disk (closed)."));
+    assert!(markdown::render(&league, None).contains("Refused: not a disk (closed)."));
     assert_eq!(league.verdict(), Ok(()));
 }
 
@@ -169,7 +233,7 @@ fn disagreement_of_the_measurers_fails_the_task() {
     let mut league = league(vec![row("qparam-paper", figures(measures(2.0)))]);
     league.meshes[0].disagreements = found;
     assert!(league.verdict().is_err());
-    assert!(markdown::render(&league).contains("**Disagreement**"));
+    assert!(markdown::render(&league, None).contains("**Disagreement**"));
 }
 
 #[test]

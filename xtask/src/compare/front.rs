@@ -81,15 +81,25 @@ fn rival(row: &Row, valid: bool) -> Option<Point> {
     is_asked_for.then_some(Point { at: place(row)?, label: row.name.replace("minimum-stretch", "stretch") })
 }
 
-/// Points that are as good as one are one, with all their names.
+/// Points that are as good as one are one, with their names as far as there is room.
 fn gathered(points: Vec<Point>) -> Vec<Point> {
     let mut found: Vec<Point> = Vec::new();
+    let mut names: Vec<Vec<String>> = Vec::new();
     for point in points {
-        let is_near = |other: &&mut Point| (0..2).all(|k| (point.at[k] / other.at[k]).ln().abs() < NEAR);
-        match found.iter_mut().find(is_near) {
-            Some(other) => other.label = format!("{}, {}", other.label, point.label),
-            None => found.push(point),
+        let is_near = |other: &Point| (0..2).all(|k| (point.at[k] / other.at[k]).ln().abs() < NEAR);
+        match found.iter().position(is_near) {
+            Some(index) => names[index].push(point.label),
+            None => {
+                names.push(vec![point.label.clone()]);
+                found.push(point);
+            }
         }
+    }
+    for (point, names) in found.iter_mut().zip(names) {
+        point.label = match &names[..] {
+            [first, _, rest @ ..] if !rest.is_empty() => format!("{first} and {} more", rest.len() + 1),
+            names => names.join(", "),
+        };
     }
     found
 }
@@ -114,8 +124,12 @@ mod tests {
     #[test]
     fn points_in_one_place_share_a_label() {
         let point = |label: &str, at| Point { at, label: label.to_owned() };
-        let points = vec![point("a", [1.0, 9.0]), point("b", [2.0, 9.0]), point("c", [1.01, 9.1])];
-        let labels: Vec<String> = gathered(points).into_iter().map(|point| point.label).collect();
-        assert_eq!(labels, ["a, c", "b"]);
+        let mut points = vec![point("a", [1.0, 9.0]), point("b", [2.0, 9.0]), point("c", [1.01, 9.1])];
+        let labels = |points: &[Point]| -> Vec<String> {
+            gathered(points.to_vec()).into_iter().map(|point| point.label).collect()
+        };
+        assert_eq!(labels(&points), ["a, c", "b"]);
+        points.push(point("d", [1.0, 9.0]));
+        assert_eq!(labels(&points), ["a and 2 more", "b"]);
     }
 }

@@ -153,7 +153,23 @@ pub(super) fn defaults_table(mesh: &MeshTable, baseline: &str) -> String {
         cells.push(yes(found.holds()));
         text += &line(cells);
     }
-    text
+    text + &not_held(&versus, &mesh.dominance)
+}
+
+/// Where the defaults do not hold what is claimed, and the setting that does, where there is one.
+fn not_held(versus: &[Versus], dominance: &[Dominance]) -> String {
+    let left = versus.iter().filter(|found| !found.holds());
+    let sentences = left.map(|found| {
+        let matching =
+            dominance.iter().find(|other| other.rival == found.rival && other.worst() <= TOLERANCE);
+        let instead = matching.map_or_else(
+            || "no setting that was tried is".to_owned(),
+            |other| format!("`{}` is", other.setting),
+        );
+        format!(" {}: the defaults weigh the errors otherwise; {instead} no worse in all three.", found.rival)
+    });
+    let text: String = sentences.collect();
+    if text.is_empty() { text } else { format!("\nNot held:{text}\n") }
 }
 
 /// Our best setting against each rival's map in one island.
@@ -181,5 +197,36 @@ pub(super) fn dominance_table(dominance: &[Dominance]) -> String {
         let names = [found.rival.clone(), yes(found.valid), format!("`{}`", found.setting)];
         text += &line(names.into_iter().chain(found.ratios.map(short)).chain([short(found.worst())]));
     }
-    text
+    text + &not_matched(dominance)
+}
+
+/// Which maps no setting matches, and why, where the reason is plain.
+fn not_matched(dominance: &[Dominance]) -> String {
+    let left: Vec<&Dominance> = dominance.iter().filter(|found| found.worst() > TOLERANCE).collect();
+    if left.is_empty() {
+        return String::new();
+    }
+    let is_end = |found: &&Dominance| {
+        found.setting.starts_with("--q 0.9999 --shape 0.001") && found.ratios[1].max(found.ratios[2]) <= 1.0
+    };
+    let (ends, others): (Vec<&Dominance>, Vec<&Dominance>) = left.into_iter().partition(is_end);
+    let names = |found: &[&Dominance]| {
+        found
+            .iter()
+            .map(|found| format!("{} ({})", found.rival, short(found.worst())))
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let mut text = String::from("\nNot matched:");
+    if !ends.is_empty() {
+        text += &format!(
+            " {}, whose angles are better than ours by that much where both dials are at their ends: `--q` acts up to 0.9999, `--shape` down to \
+             0.001, so that the minimum exists; areas and stretch are smaller there all the same.",
+            names(&ends)
+        );
+    }
+    if !others.is_empty() {
+        text += &format!(" {}: no setting that was tried is nearer.", names(&others));
+    }
+    text + "\n"
 }

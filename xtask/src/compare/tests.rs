@@ -153,7 +153,13 @@ fn what_the_defaults_are_to_hold() {
     assert_eq!(held(&rows([2.0, 7.0, 1.32], 1.27)), [false, true, true], "5 %");
     assert_eq!(held(&rows([2.0, 7.0, 1.31], 1.28)), [false, true, true], "2 %");
     assert_eq!(held(&rows([2.0, 7.9, 1.31], 1.27)), [true, true, false], "the sum");
+    let text = markdown::render(&rows([2.1, 7.0, 1.31], 1.27), None);
+    assert!(
+        text.contains("\nNot held: libigl-slim: the defaults weigh the errors otherwise; no setting"),
+        "{text}"
+    );
     let text = markdown::render(&rows([2.0, 7.0, 1.31], 1.27), None);
+    assert!(!text.contains("Not held"), "{text}");
     assert_eq!(
         line(&text, "| libigl-slim | yes | 1 |"),
         "| libigl-slim | yes | 1 | 1.00 | 0.875 | 1.05 | 1.02 |  | yes |"
@@ -185,6 +191,10 @@ fn dominance_is_counted() {
         "{text}"
     );
     assert!(line(&text, "| m | 10 |").ends_with("| 1 of 2 | 1.02 | 1 of 1 | 1.00 |"), "{text}");
+    assert!(text.contains("\nNot matched: b (1.02): no setting that was tried is nearer.\n"), "{text}");
+    league.meshes[0].dominance[1].setting = "--q 0.9999 --shape 0.001".to_owned();
+    league.meshes[0].dominance[1].ratios = [1.021, 0.5, 0.9];
+    assert!(markdown::render(&league, None).contains("\nNot matched: b (1.02), whose angles"));
     assert_eq!(line(&text, "| b "), "| b | yes | `--q 0.5 --shape 1` | 0.500 | 1.02 | 1.00 | 1.02 |");
 }
 

@@ -58,7 +58,7 @@ def _index(word, count):
 
 
 def not_a_disk(mesh):
-    """Why a mesh is not a disk (one component, one boundary loop, no handle), or `None` when it is."""
+    """Why a mesh is not a disk, perhaps with holes (one component, boundary loops, no handle), or `None` when it is."""
     if not mesh.faces:
         return "no faces"
     halfedges = {}
@@ -76,11 +76,11 @@ def not_a_disk(mesh):
     if _components(used, halfedges) != 1:
         return f"{_components(used, halfedges)} components"
     loops = _components(sorted(boundary), boundary.items())
-    if loops != 1:
-        return "closed" if loops == 0 else f"{loops} boundary loops"
+    if loops == 0:
+        return "closed"
     edges = sum(a < b or (b, a) not in halfedges for a, b in halfedges)
     euler = len(used) - edges + len(mesh.faces)
-    return None if euler == 1 else f"a handle (Euler characteristic {euler})"
+    return None if euler == 2 - loops else f"a handle (Euler characteristic {euler}, {loops} boundary loops)"
 
 
 def _components(vertices, edges):

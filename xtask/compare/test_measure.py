@@ -108,9 +108,11 @@ class Files(unittest.TestCase):
         cube = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
         positions = np.zeros((16, 3))
         other = [[v + 8 for v in face] for face in cube[:1]]
+        corners = [(0, 0), (0, 1), (1, 1), (1, 0)]
+        torus = [[3 * ((i + a) % 3) + (j + b) % 3 for a, b in corners] for i in range(3) for j in range(3)]
         reason = {
             "closed": cube,
-            "2 boundary loops": cube[2:],
+            "a handle (Euler characteristic -1, 1 boundary loops)": torus[1:],
             "2 components": cube[:1] + other,
             "not an oriented manifold": [cube[0], cube[0]],
             "boundary loops that touch": [[0, 1, 2, 3], [0, 4, 5, 6]],
@@ -118,6 +120,7 @@ class Files(unittest.TestCase):
         for expected, faces in reason.items():
             self.assertEqual(obj.not_a_disk(obj.Mesh(positions, faces)), expected)
         self.assertIsNone(obj.not_a_disk(obj.Mesh(positions, cube[1:])))
+        self.assertIsNone(obj.not_a_disk(obj.Mesh(positions, cube[2:])), "holes are allowed")
 
     def test_whole_quads_survive_triangles(self):
         triangles = obj.Triangles(self.mesh)

@@ -64,8 +64,8 @@ struct Arguments {
     /// error, area error and symmetric Dirichlet (112 maps a mesh and more), and draw both (SVG, beside the table)
     #[arg(long)]
     dominance: bool,
-    /// Run nothing: draw the table anew from the data of an earlier run
-    #[arg(long, value_name = "FILE.json", conflicts_with = "meshes")]
+    /// Go on from the data of an earlier run: draw its table anew, with the given meshes added to it
+    #[arg(long, value_name = "FILE.json")]
     from: Option<PathBuf>,
     /// Also put the short table into README.md
     #[arg(long)]
@@ -90,9 +90,10 @@ pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
 
 fn compare(arguments: &Arguments) -> Result<(), String> {
     let places = Places::new()?;
-    let league = match &arguments.from {
-        Some(path) => read(path)?,
-        None => league(arguments, &places)?,
+    let earlier = arguments.from.as_deref().map(read).transpose()?;
+    let league = match earlier {
+        Some(earlier) if arguments.meshes.is_empty() => earlier,
+        earlier => league(arguments, &places, earlier)?,
     };
     write(&league, &places, &arguments.output)?;
     if arguments.readme {
@@ -113,8 +114,8 @@ fn read(path: &Path) -> Result<League, String> {
     }
 }
 
-/// Runs everybody on every mesh.
-fn league(arguments: &Arguments, places: &Places) -> Result<League, String> {
+/// Runs everybody on every mesh, and puts what comes of it behind what is there.
+fn league(arguments: &Arguments, places: &Places, earlier: Option<League>) -> Result<League, String> {
     let meshes = meshes::files(&arguments.meshes, places)?;
     let interpreter = python::prepare(places, arguments.python.as_deref(), !arguments.no_install)?;
     let ours = ours::prepare(places, arguments.qparam.as_deref(), arguments.against.as_deref())?;
@@ -145,6 +146,13 @@ fn league(arguments: &Arguments, places: &Places) -> Result<League, String> {
         meshes: Vec::new(),
         absent,
     };
+    if let Some(earlier) = earlier {
+        if earlier.versions != league.versions || earlier.baseline != league.baseline {
+            return Err(format!("the earlier run was made with {}", earlier.versions.join(", ")));
+        }
+        league.arguments = format!("{} {}", earlier.arguments, names(&arguments.meshes));
+        league.meshes = earlier.meshes;
+    }
     let race = Race { places, interpreter: &interpreter, runs: arguments.runs, timeout: arguments.timeout };
     for (number, mesh) in meshes.iter().enumerate() {
         let mut table = table(number, mesh, &contestants, &race, &ours)?;
@@ -169,9 +177,14 @@ fn told(arguments: &Arguments) -> String {
     if !arguments.only.is_empty() {
         words.push(format!("--only {}", arguments.only.join(",")));
     }
-    let name = |mesh: &String| Path::new(mesh).file_name().unwrap_or_default().to_string_lossy().into_owned();
-    words.extend(arguments.meshes.iter().map(name));
+    words.push(names(&arguments.meshes));
     words.join(" ")
+}
+
+/// Without folders.
+fn names(meshes: &[String]) -> String {
+    let name = |mesh: &String| Path::new(mesh).file_name().unwrap_or_default().to_string_lossy().into_owned();
+    meshes.iter().map(name).collect::<Vec<_>>().join(" ")
 }
 
 fn table(

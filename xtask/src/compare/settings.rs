@@ -4,7 +4,7 @@ use std::path::Path;
 
 use qparam_cli::qmesh::obj::ObjDocument;
 use qparam_cli::qmesh::{QuadMesh, Vec2, VertexData};
-use qparam_cli::qoptimize::direct::{DescentOptions, Objective, find_start, minimize};
+use qparam_cli::qoptimize::direct::{DescentOptions, Objective, minimize};
 use qparam_cli::qoptimize::{AngleTerm, Distortion, Exempt, Method, Options, certify, measure, parameterize};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -42,14 +42,13 @@ pub(super) fn load(path: &Path) -> Result<QuadMesh, String> {
 /// The certified maps of the whole grid, each descended to from that of a neighbouring setting: fast, and near enough to choose by.
 pub(super) fn grid(mesh: &QuadMesh) -> Result<Vec<Spot>, String> {
     let exempt = Exempt::find(mesh);
-    let mut first = find_start(mesh, &exempt, &()).map_err(|error| error.to_string())?.uv;
+    let first = first(mesh)?;
     let options = DescentOptions { max_steps: 60, relative_decrease: 1e-5 };
     let descend = |uv: &mut VertexData<Vec2>, setting: Setting| {
         minimize(mesh, uv, &exempt, &setting.objective(), &options, &()).ok()
     };
-    descend(&mut first, Setting::new(0.5, SHAPE[0], AngleTerm::Log));
     let terms = [AngleTerm::Log, AngleTerm::Paper].into_iter();
-    let lines: Vec<(AngleTerm, f64)> = terms.flat_map(|term| Q.map(|q| (term, q))).collect();
+    let lines: Vec<(AngleTerm, f64)> = terms.clone().flat_map(|term| Q.map(|q| (term, q))).collect();
     let line = |(term, q): (AngleTerm, f64)| {
         let mut uv = first.clone();
         let mut spot = |shape: f64| {
@@ -61,15 +60,30 @@ pub(super) fn grid(mesh: &QuadMesh) -> Result<Vec<Spot>, String> {
         };
         SHAPE.into_iter().filter_map(&mut spot).collect::<Vec<_>>()
     };
-    Ok(lines.into_par_iter().flat_map_iter(line).collect())
+    let spots: Vec<Spot> = lines.into_par_iter().flat_map_iter(line).collect();
+    if spots.is_empty() {
+        // Holes, say: there every map is made from its own start.
+        let settings = terms.flat_map(|term| {
+            Q.into_iter().flat_map(move |q| SHAPE.map(|shape| Setting::new(q, shape, term)))
+        });
+        let settings: Vec<Setting> = settings.collect();
+        return Ok(settings.into_par_iter().filter_map(|setting| as_released(mesh, setting)).collect());
+    }
+    Ok(spots)
+}
+
+/// The map of least stretch, one place a vertex: where all lines of the grid start.
+fn first(mesh: &QuadMesh) -> Result<VertexData<Vec2>, String> {
+    let options = Setting::new(0.5, SHAPE[0], AngleTerm::Log).as_options();
+    let map = parameterize(mesh, &options, &()).map_err(|error| error.to_string())?;
+    let mut uv = mesh.vertex_data(|_| Vec2::zeros());
+    mesh.corners().for_each(|corner| uv[mesh.vertex(corner)] = map.uv[corner]);
+    Ok(uv)
 }
 
 /// The map as `qparam unwrap` makes it. Nothing where it is not certified: it would not be released either.
 pub(super) fn as_released(mesh: &QuadMesh, setting: Setting) -> Option<Spot> {
-    let mut options = Options { method: Method::Direct, q: setting.q, ..Options::default() };
-    options.direct.shape = setting.shape;
-    options.direct.angle_term = setting.term;
-    let map = parameterize(mesh, &options, &()).ok()?;
+    let map = parameterize(mesh, &setting.as_options(), &()).ok()?;
     setting.spot(&map.distortion).filter(|_| map.certificate.holds)
 }
 
@@ -90,6 +104,13 @@ impl Setting {
         let ratio = odds * self.q / (1.0 - self.q);
         let q = 1.0 - rounded(1.0 / (1.0 + ratio));
         Self { q: (q * 1e8).round() / 1e8, shape: rounded(self.shape * factor).max(0.001), ..self }
+    }
+
+    fn as_options(self) -> Options {
+        let mut options = Options { method: Method::Direct, q: self.q, ..Options::default() };
+        options.direct.shape = self.shape;
+        options.direct.angle_term = self.term;
+        options
     }
 
     fn objective(self) -> Objective {

@@ -234,6 +234,11 @@ fn disagreement_of_the_measurers_fails_the_task() {
     assert_eq!(agreement::disagreements(&ours, &script(2.0 + 1e-5, 0.0)).len(), 1);
     assert!(agreement::disagreements(&ours, &script(2.0 + 1e-5, 1e-6)).is_empty());
     assert_eq!(agreement::disagreements(&ours, &script(f64::INFINITY.min(1e300), 0.0)).len(), 1);
+    assert!(
+        agreement::disagreements(&measures(2e15), &script(3e15, 0.0)).is_empty(),
+        "no digit means anything"
+    );
+    assert_eq!(agreement::disagreements(&measures(2e14), &script(3e15, 0.0)).len(), 1);
     let mut other = measures(2.0);
     other.flipped_corners = 1;
     other.symmetric_dirichlet = None;

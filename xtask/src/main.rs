@@ -28,6 +28,11 @@ const TASKS: &[(&str, &str, Task)] = &[
         fixtures::run,
     ),
     (
+        "meshes",
+        "unwrap every mesh in the folder QPARAM_MESHES, and compare seams (--python PROGRAM for the rivals), into docs/tables/meshes.md",
+        meshes::run,
+    ),
+    (
         "readings",
         "the tables behind docs/paper.md; --check compares them, --times prints ratios of times",
         readings::run,
@@ -52,6 +57,7 @@ mod disks;
 mod figure;
 mod fixtures;
 mod links;
+mod meshes;
 mod readings;
 mod refine;
 mod section;

@@ -7,7 +7,7 @@
 //! - an edge with more than two faces is a seam;
 //! - a vertex becomes one vertex for each fan of faces around it that no edge joins: vertices are split in the
 //!   charts, never in the caller's polygons;
-//! - faces are turned over until neighbours agree, the fewer of a piece;
+//! - faces are turned over until neighbours agree, across seams too: the fewer of all that hang together;
 //! - where that is impossible (Möbius strips, Klein bottles) the edges that remain in conflict are seams;
 //! - a face that repeats an earlier one, in either direction, lies in a second layer, joined to others of its kind
 //!   only: a leaf with two sides falls into its sides;
@@ -78,8 +78,8 @@ pub fn cut(polygons: PolygonView<'_>, seams: &Seams) -> Result<Charts, BuildErro
         Ok(())
     })?;
     let layer = layers::layers(polygons, &mut repairs);
-    let mut mates = pairs::pair(polygons, &layer, &alone, seams, &mut repairs);
-    let sides = orient::orient(polygons, &mut mates, &mut repairs);
+    let [mut mates, joined] = pairs::pair(polygons, &layer, &alone, seams, &mut repairs);
+    let sides = orient::orient(polygons, &mut mates, &joined, &mut repairs);
     let charts = build::charts(polygons, &mates, &sides, &layer, &alone, &mut repairs)?;
     Ok(Charts { charts, repairs })
 }
@@ -109,6 +109,16 @@ impl Chart {
             piece
         };
         cut.charts.into_iter().map(within).collect()
+    }
+
+    /// The caller's faces that run backwards here, ascending.
+    pub fn turned_faces(&self) -> impl Iterator<Item = u32> + '_ {
+        let is_turned = |face: &FaceId| {
+            let mut corners = self.mesh.face_corners(*face).map(|corner| self.source_corner(corner));
+            let [first, second] = [corners.next(), corners.next()];
+            first.zip(second).is_some_and(|(first, second)| second != first + 1)
+        };
+        self.mesh.faces().filter(is_turned).map(|face| self.source_face(face))
     }
 
     /// The caller's face of `face`.

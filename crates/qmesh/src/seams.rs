@@ -43,25 +43,43 @@ impl Seams {
     /// edge's lower and at its higher vertex.
     #[must_use]
     pub fn between(polygons: PolygonView<'_>, differ: impl Fn([usize; 2], [usize; 2]) -> bool) -> Self {
-        let mut sides: Vec<([u32; 2], [usize; 2])> = Vec::with_capacity(polygons.corner_count());
-        for face in 0..polygons.face_count() {
-            let corners = polygons.corners(face);
-            for corner in corners.clone() {
-                let next = if corner + 1 == corners.end { corners.start } else { corner + 1 };
-                let [a, b] = [corner, next].map(|c| polygons.corner_vertex[c]);
-                sides.push(if a < b { ([a, b], [corner, next]) } else { ([b, a], [next, corner]) });
-            }
-        }
-        sides.par_sort_unstable();
-        let differs =
-            |group: &&[([u32; 2], [usize; 2])]| group.iter().skip(1).any(|side| differ(group[0].1, side.1));
-        sides.chunk_by(|a, b| a.0 == b.0).filter(differs).map(|group| group[0].0).collect()
+        let differs = |group: &[Side]| group[1..].iter().any(|side| differ(group[0].1, side.1));
+        of_edges(polygons, differs)
+    }
+
+    /// The edges of which each face differs from each other one, as [`between`](Self::between) asks for it: where of three faces two agree, the
+    /// edge is none.
+    #[must_use]
+    pub fn among_all(polygons: PolygonView<'_>, differ: impl Fn([usize; 2], [usize; 2]) -> bool) -> Self {
+        let differs = |group: &[Side]| {
+            group.len() > 1
+                && (1..group.len()).all(|i| group[..i].iter().all(|other| differ(other.1, group[i].1)))
+        };
+        of_edges(polygons, differs)
     }
 
     /// The edges, sorted.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = [u32; 2]> + '_ {
         self.pairs.iter().copied()
     }
+}
+
+/// An edge by its vertices, lower first, and the corners of one of its faces there.
+type Side = ([u32; 2], [usize; 2]);
+
+/// The edges whose faces' sides are as `is_seam` wants them.
+fn of_edges(polygons: PolygonView<'_>, is_seam: impl Fn(&[Side]) -> bool) -> Seams {
+    let mut sides: Vec<Side> = Vec::with_capacity(polygons.corner_count());
+    for face in 0..polygons.face_count() {
+        let corners = polygons.corners(face);
+        for corner in corners.clone() {
+            let next = if corner + 1 == corners.end { corners.start } else { corner + 1 };
+            let [a, b] = [corner, next].map(|c| polygons.corner_vertex[c]);
+            sides.push(if a < b { ([a, b], [corner, next]) } else { ([b, a], [next, corner]) });
+        }
+    }
+    sides.par_sort_unstable();
+    sides.chunk_by(|a, b| a.0 == b.0).filter(|group| is_seam(group)).map(|group| group[0].0).collect()
 }
 
 impl FromIterator<[u32; 2]> for Seams {

@@ -9,6 +9,7 @@
 //! [`Method::Direct`](crate::Method::Direct), and if that fails too, by the convex start alone; [`Island::fallback`] says why. Only when the one
 //! piece there is fails, it is an error.
 
+mod keep;
 mod layout;
 mod measures;
 mod options;
@@ -17,7 +18,10 @@ mod solve;
 mod stretch;
 mod upright;
 
+pub use keep::kept_seams;
+pub use measures::consistent;
 pub use options::{AtlasError, AtlasOptions, Density, UpAxis};
+pub use refine::{Cut, Refinement, RefinementEnd};
 pub use stretch::{StretchMeasure, stretch};
 
 use qembed::qcurv::seams::opening;
@@ -96,6 +100,8 @@ pub struct Island {
     pub boundary_crossings: usize,
     /// Why the method was not the one asked for.
     pub fallback: Option<String>,
+    /// How it was cut further: nothing where that was not asked for or not needed.
+    pub refinement: Option<Refinement>,
     /// How its map came about.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub record: RunRecord,
@@ -136,7 +142,9 @@ pub fn unwrap(
 ) -> Result<Atlas, AtlasError> {
     options.check()?;
     tell(observer, "charts", 0.0)?;
-    let cut = charts::cut(polygons, seams)?;
+    let mut seams = seams.clone();
+    seams.extend(kept_seams(polygons, &options.keep).iter());
+    let cut = charts::cut(polygons, &seams)?;
     let pieces = if options.open { open(cut.charts) } else { cut.charts };
     tell(observer, "charts", 1.0)?;
     unwrap_charts(polygons, pieces, cut.repairs, options, observer)
@@ -171,7 +179,10 @@ pub fn unwrap_charts(
     if let Some(bound) = options.max_stretch {
         solved = refine::refine(solved, bound, options, observer)?;
     }
-    let layout = if solved.len() > 1 || options.up.is_some() || options.true_scale {
+    let layout = if !options.keep.is_empty() {
+        layout::beside(&mut solved, options);
+        None
+    } else if solved.len() > 1 || options.up.is_some() || options.true_scale {
         tell(observer, "layout", 0.0)?;
         let layout = layout::arrange(&mut solved, options);
         tell(observer, "layout", 1.0)?;
@@ -185,7 +196,7 @@ pub fn unwrap_charts(
     let (distortion, certificate) = match &solved[..] {
         // Nobody moved it since it was measured.
         [Solved { distortion: Some(distortion), certificate: Some(certificate), chart, .. }]
-            if layout.is_none() && turned_faces.is_empty() =>
+            if layout.is_none() && turned_faces.is_empty() && options.keep.is_empty() =>
         {
             (distortion.clone(), measures::in_source_numbers(certificate, &chart.mesh))
         }

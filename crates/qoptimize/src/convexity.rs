@@ -72,24 +72,144 @@ impl Exempt {
     }
 }
 
-/// The pairs of vertices that stand in the way, each with the faces that contain it without an edge between.
+/// Faces with more corners are not written out as pairs, of which they have as many as the square.
+const MANY_CORNERS: usize = 24;
+
+/// The pairs of vertices that stand in the way, each with the faces that contain it without an edge between. Of the pairs that two faces
+/// with very many corners share only one is named.
 fn shared_pairs(mesh: &QuadMesh) -> Vec<([VertexId; 2], Vec<FaceId>)> {
     let mut keys: Vec<([VertexId; 2], FaceId)> = Vec::with_capacity(2 * mesh.face_count());
-    for face in mesh.faces() {
+    for face in mesh.faces().filter(|&face| mesh.degree(face) <= MANY_CORNERS) {
         let vertices: Vec<VertexId> = mesh.face_vertices(face).collect();
         let n = vertices.len();
         for i in 0..n {
             for j in i + 2..n {
                 if (i, j) != (0, n - 1) {
-                    let pair = [vertices[i].min(vertices[j]), vertices[i].max(vertices[j])];
-                    keys.push((pair, face));
+                    keys.push((sorted([vertices[i], vertices[j]]), face));
                 }
             }
         }
     }
+    let large = LargeFaces::new(mesh);
+    if !large.corners.is_empty() {
+        let own = keys.clone();
+        let pairs =
+            own.iter().map(|key| key.0).chain(mesh.edges().map(|edge| sorted(mesh.edge_vertices(edge))));
+        pairs.for_each(|pair| keys.extend(large.with(pair).map(|face| (pair, face))));
+        large.among_themselves(&mut keys);
+    }
     keys.sort_unstable();
+    keys.dedup();
     keys.chunk_by(|a, b| a.0 == b.0)
         .filter(|group| group.len() > 1 || mesh.neighbors(group[0].0[0]).any(|v| v == group[0].0[1]))
         .map(|group| (group[0].0, group.iter().map(|&(_, face)| face).collect()))
         .collect()
+}
+
+fn sorted([a, b]: [VertexId; 2]) -> [VertexId; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// The faces with many corners, by their vertices.
+struct LargeFaces {
+    /// Vertex, face, place in the face, degree of the face; sorted.
+    corners: Vec<(VertexId, FaceId, usize, usize)>,
+}
+
+impl LargeFaces {
+    fn new(mesh: &QuadMesh) -> Self {
+        let large = mesh.faces().filter(|&face| mesh.degree(face) > MANY_CORNERS);
+        let mut corners: Vec<_> = large
+            .flat_map(|face| {
+                let degree = mesh.degree(face);
+                mesh.face_vertices(face).enumerate().map(move |(place, vertex)| (vertex, face, place, degree))
+            })
+            .collect();
+        corners.sort_unstable();
+        Self { corners }
+    }
+
+    fn at(&self, vertex: VertexId) -> &[(VertexId, FaceId, usize, usize)] {
+        let start = self.corners.partition_point(|corner| corner.0 < vertex);
+        let end = start + self.corners[start..].iter().take_while(|corner| corner.0 == vertex).count();
+        &self.corners[start..end]
+    }
+
+    /// The faces that have both vertices, without an edge of theirs between.
+    fn with(&self, [a, b]: [VertexId; 2]) -> impl Iterator<Item = FaceId> + '_ {
+        let others = self.at(b);
+        self.at(a).iter().filter_map(move |&(_, face, place, degree)| {
+            let other = others.iter().find(|other| other.1 == face)?.2;
+            let apart = place.abs_diff(other);
+            (apart > 1 && apart + 1 < degree).then_some(face)
+        })
+    }
+
+    /// A pair for every two of these faces that share one. Among six vertices that both have there are two that neither joins by an
+    /// edge, if any are.
+    fn among_themselves(&self, keys: &mut Vec<([VertexId; 2], FaceId)>) {
+        const ENOUGH: usize = 6;
+        let mut shared: HashMap<[FaceId; 2], Vec<VertexId>> = HashMap::new();
+        for group in self.corners.chunk_by(|a, b| a.0 == b.0) {
+            for (i, first) in group.iter().enumerate() {
+                for second in &group[i + 1..] {
+                    let vertices = shared.entry([first.1, second.1]).or_default();
+                    if vertices.len() < ENOUGH {
+                        vertices.push(first.0);
+                    }
+                }
+            }
+        }
+        for (faces, vertices) in shared {
+            let pairs =
+                vertices.iter().enumerate().flat_map(|(i, &a)| vertices[..i].iter().map(move |&b| [b, a]));
+            let found =
+                pairs.into_iter().find(|&pair| faces.iter().all(|&face| self.with(pair).any(|f| f == face)));
+            keys.extend(found.into_iter().flat_map(|pair| faces.map(|face| (pair, face))));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A ring of `n` quads around one face with `n` corners.
+    fn drum(n: u32) -> QuadMesh {
+        let positions: Vec<[f64; 3]> = (0..2 * n)
+            .map(|v| {
+                let angle = std::f64::consts::TAU * f64::from(v % n) / f64::from(n);
+                [angle.cos(), angle.sin(), f64::from(v / n)]
+            })
+            .collect();
+        let mut faces: Vec<Vec<u32>> = vec![(0..n).rev().collect()];
+        faces.extend((0..n).map(|i| vec![i, (i + 1) % n, n + (i + 1) % n, n + i]));
+        QuadMesh::from_slices(&positions, faces).expect("a drum")
+    }
+
+    /// Written out as pairs or not, faces with many corners get the same verdict: a drum can be convex.
+    #[test]
+    fn many_corners_are_no_obstacle() {
+        for n in [8, 24, 25, 400, 50_000] {
+            let exempt = Exempt::find(&drum(n));
+            assert!(exempt.is_empty(), "{n}: {} impossible", exempt.impossible().len());
+        }
+    }
+
+    /// A quad across a large face (both have its opposite vertices) is exempt, the large face impossible, however many corners it has.
+    #[test]
+    fn a_quad_across_a_large_face_is_found() {
+        for n in [8_u32, 25, 300] {
+            let mut faces: Vec<Vec<u32>> = vec![(0..n).collect()];
+            // Opposite vertices 0 and 4 of the quad are both in the large face.
+            faces.push(vec![1, 0, n, 2]);
+            faces.push(vec![2, n, 4, 3]);
+            let positions: Vec<[f64; 3]> =
+                (0..=n).map(|v| [f64::from(v).cos(), f64::from(v).sin(), f64::from(v)]).collect();
+            let Ok(mesh) = QuadMesh::from_slices(&positions, faces) else { panic!("a mesh") };
+            let exempt = Exempt::find(&mesh);
+            assert_eq!(exempt.impossible(), [FaceId(0)], "{n}");
+            assert_eq!(exempt.faces(), [FaceId(1), FaceId(2)], "{n}");
+        }
+    }
 }

@@ -78,8 +78,10 @@ pub fn pack(shapes: &[Shape<'_>], options: &PackOptions) -> Packed {
     let area: f64 = shapes.iter().map(area).sum();
     let widest = boxes.iter().map(|[low, high]| (high - low).max()).fold(0.0, f64::max);
     let room = f64::from(side) - margin_cells;
-    let largest = (f64::from(side) / area.sqrt()).min(room / widest);
-    let largest = if largest.is_finite() && largest > 0.0 { largest } else { 1.0 };
+    // Areas may be too large for numbers where lengths are not.
+    let bounds = [f64::from(side) / area.sqrt(), room / widest];
+    let largest = bounds.into_iter().filter(|bound| bound.is_finite() && *bound > 0.0).reduce(f64::min);
+    let largest = largest.unwrap_or(1.0);
     let attempt = |scale: f64| place(shapes, &boxes, scale, margin_cells, side, Some(side));
     let (mut low, mut high) = (largest * 0.8, largest);
     let mut best = None;
@@ -114,11 +116,32 @@ pub fn lay_out(shapes: &[Shape<'_>], scale: f64, width: f64, options: &PackOptio
     let height: f64 = boxes.iter().map(|[low, high]| scale * (high - low).y + margin).sum();
     let side = f64::from(cells(shapes.len())).min((MOST_CELLS * width / height).sqrt()).max(16.0) as u32;
     let unit = width / f64::from(side);
+    // So slender that no grid fits it: one above the other.
+    let needed = height / unit * f64::from(side);
+    if needed.is_nan() || needed > 2.0 * MOST_CELLS {
+        return stack(&boxes, scale, margin, options);
+    }
     let places = place(shapes, &boxes, scale / unit, margin / unit, side + 2, None);
     let places = places.unwrap_or_else(|| vec![[0, 0]; shapes.len()]);
     let mut packed = finish(&boxes, &places, scale, unit, margin / unit, options);
     packed.margin = options.margin;
     packed
+}
+
+/// Islands one above the other.
+fn stack(boxes: &[[Vec2; 2]], scale: f64, margin: f64, options: &PackOptions) -> Packed {
+    let mut top = Vec2::repeat(0.5 * margin);
+    let mut extent = Vec2::zeros();
+    let offsets = boxes
+        .iter()
+        .map(|[low, high]| {
+            let offset = top - scale * low;
+            extent = extent.sup(&(scale * high + offset + Vec2::repeat(0.5 * margin)));
+            top.y = extent.y + 0.5 * margin;
+            offset
+        })
+        .collect();
+    Packed { scale, offsets, margin: options.margin, extent }
 }
 
 /// Cells along a side of the square: many small islands need a finer grid than few large ones.

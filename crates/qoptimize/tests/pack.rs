@@ -145,3 +145,39 @@ fn degenerate_islands_have_places() {
         assert!(packed.offsets.iter().all(|p| p.iter().all(|x| x.is_finite())) && packed.scale > 0.0);
     }
 }
+
+/// Sizes whose squares no number holds, islands without width, margins larger than the square, and layouts so slender that no grid fits
+/// them: finite places all the same, and apart where there are digits enough.
+#[test]
+fn extreme_sizes_have_places() {
+    let rectangle = |width: f64, height: f64| {
+        let uv = [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]].map(|[x, y]| Vec2::new(x, y));
+        (vec![0, 4], uv.to_vec())
+    };
+    let cases: [(&str, Vec<(Vec<u32>, Vec<Vec2>)>); 5] = [
+        ("squares too large to be squared", vec![rectangle(1e160, 1e160), rectangle(3e159, 1e160)]),
+        ("and too small", vec![rectangle(1e-200, 2e-200), rectangle(1e-200, 1e-200)]),
+        ("a needle and a square", vec![rectangle(1e-30, 1.0), rectangle(1.0, 1.0)]),
+        ("points", vec![rectangle(0.0, 0.0), rectangle(0.0, 0.0)]),
+        ("towers", vec![rectangle(1e-9, 1e9), rectangle(1e-9, 1e9), rectangle(1e-9, 1e9)]),
+    ];
+    for (name, islands) in cases {
+        let shapes: Vec<Shape<'_>> =
+            islands.iter().map(|(starts, uv)| Shape { face_start: starts, uv }).collect();
+        for margin in [0.0, 4.0, 1e9] {
+            for resolution in [1, 1024] {
+                let options = PackOptions { margin, resolution };
+                for packed in [pack(&shapes, &options), lay_out(&shapes, 1.0, 1e-3, &options)] {
+                    let places = packed.offsets.iter().chain([&packed.extent]);
+                    assert!(places.flat_map(|p| p.iter()).all(|x| x.is_finite()), "{name}: {packed:?}");
+                    assert!(packed.scale > 0.0 && packed.scale.is_finite(), "{name}: {packed:?}");
+                }
+            }
+        }
+    }
+    let towers = vec![rectangle(1e-3, 1e3); 3];
+    let shapes: Vec<Shape<'_>> = towers.iter().map(|(starts, uv)| Shape { face_start: starts, uv }).collect();
+    let packed = lay_out(&shapes, 1.0, 1e-3, &PackOptions { margin: 4.0, resolution: 1024 });
+    let (polygons, uv) = layout(&towers, &packed);
+    assert!(certify(polygons.view(), &uv, 1).unwrap().holds, "one above the other: {packed:?}");
+}

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use qoptimize::certificate::Place;
-use qoptimize::{Certificate, Violation, ViolationKind, certify};
+use qoptimize::{Certificate, Violation, ViolationKind};
 use serde::Serialize;
 
 use crate::args::CheckArgs;
@@ -12,6 +12,7 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::json_text;
 use crate::measure::uv_of;
+use crate::orientation::{self, Judged};
 use crate::report::Head;
 use crate::streams::Streams;
 use crate::table::counted;
@@ -27,6 +28,8 @@ struct Report {
 struct FileReport {
     file: String,
     valid: bool,
+    /// Faces that run against the orientation around them, and were turned over before the check. Indices count from 0.
+    turned_faces: Vec<u32>,
     /// Indices count from 0.
     certificate: Certificate,
     /// One for each violation listed, in words, in the numbers of the file.
@@ -53,12 +56,13 @@ pub(crate) fn run(arguments: &CheckArgs, io: &mut Streams<'_>) -> Result<Exit, F
 
 fn checked(input: &Input, limit: usize) -> Result<FileReport, Failure> {
     let uv = uv_of(input)?;
-    let certificate = certify(input.document.view(), &uv, limit).map_err(|error| {
+    let (judged, certificate) = Judged::certify(input.document.view(), &uv, limit).map_err(|error| {
         Failure::new(Exit::Input, format!("{}: the UVs cannot be checked", input.name)).cause(&error)
     })?;
+    let turned_faces = judged.turned_faces();
     let lines = Lines::of(input, &certificate);
     let messages = certificate.violations.iter().map(|violation| lines.describe(violation)).collect();
-    Ok(FileReport { file: input.name.clone(), valid: certificate.holds, certificate, messages })
+    Ok(FileReport { file: input.name.clone(), valid: certificate.holds, turned_faces, certificate, messages })
 }
 
 impl FileReport {
@@ -66,6 +70,9 @@ impl FileReport {
     fn text(&self) -> String {
         let found = &self.certificate;
         let mut text = format!("{}: certificate {found}\n", self.file);
+        if let Some(note) = orientation::note(&self.turned_faces) {
+            text += &format!("  {note}\n");
+        }
         if found.holds {
             text += &format!(
                 "  {} on {} with {}",

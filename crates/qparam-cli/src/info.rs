@@ -13,7 +13,7 @@ use crate::disk::describe;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::info::connectivity::Connectivity;
-use crate::info::labels::Labels;
+pub(crate) use crate::info::labels::Labels;
 use crate::info::shape::{Shape, Spread};
 use crate::input::Input;
 use crate::islands::repair_lines;

@@ -1,6 +1,6 @@
-//! Ctrl-C: work that watches stops by itself, a file that is being written is finished or dropped first.
+//! Ctrl-C and its like: work that watches stops by itself, a file that is being written is finished or dropped first.
 
-use std::sync::atomic::{AtomicBool, AtomicU8, Ordering::SeqCst};
+use std::sync::atomic::{AtomicBool, AtomicU8, AtomicUsize, Ordering::SeqCst};
 
 /// What a signal has to respect right now.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,17 +15,38 @@ pub(crate) enum Phase {
 }
 
 /// The request to stop, shared between the signal handler and the work.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Interrupt {
     requested: AtomicBool,
     phase: AtomicU8,
+    /// How often it may still be looked at before it counts as requested.
+    looks: AtomicUsize,
+}
+
+/// More looks than there will be.
+const NEVER: usize = usize::MAX;
+
+impl Default for Interrupt {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 impl Interrupt {
     /// No request yet.
     #[must_use]
     pub const fn new() -> Self {
-        Self { requested: AtomicBool::new(false), phase: AtomicU8::new(Phase::Free as u8) }
+        Self::after_looks(NEVER)
+    }
+
+    /// A request that comes by itself once the work has looked `looks` times: for tests of what an interruption leaves behind.
+    #[must_use]
+    pub const fn after_looks(looks: usize) -> Self {
+        Self {
+            requested: AtomicBool::new(false),
+            phase: AtomicU8::new(Phase::Free as u8),
+            looks: AtomicUsize::new(looks),
+        }
     }
 
     /// Asks to stop. `true` says that nothing needs to be waited for: the process may exit now.
@@ -37,6 +58,10 @@ impl Interrupt {
 
     /// Whether somebody asked to stop.
     pub fn is_requested(&self) -> bool {
+        let count = |left: usize| (left != NEVER).then(|| left.saturating_sub(1));
+        if self.looks.fetch_update(SeqCst, SeqCst, count) == Ok(0) {
+            self.requested.store(true, SeqCst);
+        }
         self.requested.load(SeqCst)
     }
 

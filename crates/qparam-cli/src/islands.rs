@@ -1,8 +1,9 @@
 //! Islands, repairs, seams and the layout, in words.
 
 use qoptimize::Island;
-use qoptimize::atlas::{Layout, SeamLength};
+use qoptimize::atlas::{Layout, RefinementEnd, SeamLength};
 use qoptimize::qmesh::{Found, Repairs};
+use serde::Serialize;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -17,7 +18,6 @@ pub(crate) fn repair_lines(repairs: &Repairs) -> Vec<String> {
     let mut lines = Vec::new();
     let edge = |[a, b]: &[u32; 2]| format!("{}-{}", a + 1, b + 1);
     let number = |index: &u32| (index + 1).to_string();
-    line(&mut lines, &repairs.nonmanifold_edges, "edge", "with more than two faces: cut", "vertices", edge);
     line(&mut lines, &repairs.nonmanifold_edges, "edge", "in more than two faces: cut", "vertices", edge);
     line(
         &mut lines,
@@ -122,6 +122,78 @@ pub(crate) fn layout_lines(seams: SeamLength, layout: Option<&Layout>, islands: 
         lines.push(format!("{} mapped in another way than asked for: {why}", counted(fallbacks, "island")));
     }
     lines
+}
+
+/// One step of the trade of seams for stretch.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub(crate) struct Trade {
+    /// Cuts beyond those that every island needs.
+    pub(crate) cuts: usize,
+    /// Length of all seams in space.
+    pub(crate) seam_length: f64,
+    /// Of the island that is stretched most.
+    pub(crate) stretch: f64,
+}
+
+/// What each further cut cost and brought, the most stretched island first; nothing when there were none.
+pub(crate) fn trades(seams: SeamLength, islands: &[Island]) -> Vec<Trade> {
+    let total: usize = islands.iter().filter_map(|island| Some(island.refinement.as_ref()?.cuts.len())).sum();
+    if total == 0 {
+        return Vec::new();
+    }
+    let added = islands.iter().filter_map(|island| island.refinement.as_ref()).flat_map(|found| &found.cuts);
+    let mut seam_length = seams.length - added.map(|cut| cut.length).sum::<f64>();
+    let mut done = vec![0; islands.len()];
+    let now = |island: usize, done: usize| match (&islands[island].refinement, done) {
+        (None, _) => islands[island].stretch,
+        (Some(found), 0) => found.stretch,
+        (Some(found), done) => found.cuts[done - 1].stretch,
+    };
+    let mut trades = Vec::new();
+    for cuts in 0..=total {
+        let worst = (0..islands.len()).map(|island| now(island, done[island])).fold(0.0, f64::max);
+        trades.push(Trade { cuts, seam_length, stretch: worst });
+        let left = |island: &usize| {
+            islands[*island].refinement.as_ref().is_some_and(|found| done[*island] < found.cuts.len())
+        };
+        let next = (0..islands.len()).filter(left).reduce(|best, island| {
+            if now(island, done[island]) > now(best, done[best]) { island } else { best }
+        });
+        if let Some(next) = next {
+            seam_length +=
+                islands[next].refinement.as_ref().map_or(0.0, |found| found.cuts[done[next]].length);
+            done[next] += 1;
+        }
+    }
+    trades
+}
+
+/// The trade as a table, and which islands stay above the bound and why.
+pub(crate) fn trade_text(trades: &[Trade], islands: &[Island], color: bool) -> String {
+    let mut text = String::new();
+    if !trades.is_empty() {
+        let mut table = Table::new(["seam length", "largest stretch"].map(str::to_owned).to_vec());
+        table.section("further cuts");
+        for trade in trades {
+            table.row(&trade.cuts.to_string(), vec![short(trade.seam_length), short(trade.stretch)]);
+        }
+        text += &(table.render(color) + "\n");
+    }
+    for island in islands {
+        let Some(found) = &island.refinement else { continue };
+        let why = match found.end {
+            RefinementEnd::Reached => continue,
+            RefinementEnd::NothingGained => "further cuts gained nothing",
+            RefinementEnd::NothingToCut => "there is nothing left to cut",
+            _ => "it has as many cuts as an island may have",
+        };
+        text += &format!(
+            "note: the island of face {} stays stretched by {}: {why}\n",
+            island.first_face + 1,
+            short(island.stretch)
+        );
+    }
+    text
 }
 
 /// The largest islands, one row each.

@@ -22,6 +22,14 @@ pub(crate) struct LayoutArgs {
     /// Cut further until no island is stretched more, but for 1 % of its area; 1 is an isometry
     #[arg(long, value_name = "X", value_parser = above_one, help_heading = "Seams and layout")]
     pub(crate) max_stretch: Option<f64>,
+    /// Keep the UVs of this group, object or material as they are in the file, and map the rest to meet them; repeatable (direct,
+    /// conformal)
+    ///
+    /// The island around the group is solved with these UVs held. Other islands are laid out above, at the same texel density; nothing is
+    /// fitted to the unit square.
+    #[arg(long, value_name = "GROUP", help_heading = "Seams and layout",
+        conflicts_with_all = ["max_stretch", "density", "no_pack", "symmetric", "pin", "pins", "boundary", "report", "uv_precision"])]
+    pub(crate) keep_uv: Vec<String>,
     /// Refuse a mesh that has to be mended: not manifold, faces turned over, one side only, faces twice
     #[arg(long, help_heading = "Seams and layout")]
     pub(crate) strict: bool,
@@ -127,6 +135,7 @@ impl LayoutArgs {
             open: !self.seams.contains(&SeamSource::None),
             max_stretch: self.max_stretch,
             density: self.density.0,
+            keep: Vec::new(),
             up: self.up.map(|up| match up {
                 UpChoice::X => UpAxis::X,
                 UpChoice::Y => UpAxis::Y,

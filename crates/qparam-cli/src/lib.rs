@@ -48,6 +48,7 @@ mod check;
 mod info;
 mod layout_command;
 mod measure;
+mod orientation;
 mod page_report;
 pub mod picture;
 mod picture_args;
@@ -58,6 +59,7 @@ mod threads;
 mod unwrap;
 
 mod islands;
+mod keep;
 mod pages;
 mod pins;
 mod progress;

@@ -1,7 +1,7 @@
 //! `qparam measure`: the measures of UVs that files already have.
 
 use qoptimize::qmesh::Vec2;
-use qoptimize::{Certificate, Distortion, certify, measure};
+use qoptimize::{Certificate, Distortion, measure};
 use serde::Serialize;
 
 use crate::args::MeasureArgs;
@@ -9,6 +9,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::json_text;
+use crate::orientation::{self, Judged};
 use crate::report::{Head, LISTED, distortion_table};
 use crate::streams::Streams;
 
@@ -23,6 +24,8 @@ struct Report {
 struct FileReport {
     file: String,
     valid: bool,
+    /// Faces that run against the orientation around them, and were turned over before measuring. Indices count from 0.
+    turned_faces: Vec<u32>,
     certificate: Certificate,
     distortion: Distortion,
 }
@@ -44,6 +47,9 @@ pub(crate) fn run(arguments: &MeasureArgs, io: &mut Streams<'_>) -> Result<Exit,
         let mut text = distortion_table(&columns).render(io.stdout_color) + "\n";
         for file in &files {
             text += &format!("{}: certificate {}\n", file.file, file.certificate);
+            if let Some(note) = orientation::note(&file.turned_faces) {
+                text += &format!("  {note}\n");
+            }
         }
         text
     };
@@ -56,9 +62,10 @@ fn measured(input: Input) -> Result<FileReport, Failure> {
     let unmeasured = |error| {
         Failure::new(Exit::Input, format!("{}: the UVs cannot be measured", input.name)).cause(&error)
     };
-    let distortion = measure(input.document.view(), &uv).map_err(unmeasured)?;
-    let certificate = certify(input.document.view(), &uv, LISTED).map_err(unmeasured)?;
-    Ok(FileReport { valid: certificate.holds, certificate, file: input.name, distortion })
+    let (judged, certificate) = Judged::certify(input.document.view(), &uv, LISTED).map_err(unmeasured)?;
+    let distortion = measure(judged.view(), judged.uv()).map_err(unmeasured)?;
+    let turned_faces = judged.turned_faces();
+    Ok(FileReport { valid: certificate.holds, turned_faces, certificate, file: input.name, distortion })
 }
 
 /// The UV of every corner; refused when any lacks one.

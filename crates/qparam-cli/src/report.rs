@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use crate::info::connectivity::Edges;
 use crate::input::Input;
-use crate::islands::{island_table, layout_lines, repair_lines};
+use crate::islands::{Trade, island_table, layout_lines, repair_lines, trade_text};
 use crate::progress::StageTime;
 use crate::table::{Table, counted, short};
 use crate::worst::{self, WorstReport};
@@ -115,6 +115,8 @@ pub(crate) struct UnwrapReport<'a> {
     pub(crate) repairs: &'a Repairs,
     /// What was cut.
     pub(crate) seams: SeamLength,
+    /// What each cut of `--max-stretch` cost and brought.
+    pub(crate) trade: Vec<Trade>,
     /// How islands were laid out.
     pub(crate) layout: Option<Layout>,
     pub(crate) layout_options: serde_json::Value,
@@ -155,6 +157,7 @@ pub(crate) fn unwrap_text(report: &UnwrapReport<'_>, method: &str, color: bool) 
     if report.islands.len() > 1 {
         text += &(island_table(report.islands).render(color) + "\n");
     }
+    text += &trade_text(&report.trade, report.islands, color);
     text += &distortion_table(&[(String::new(), report.distortion)]).render(color);
     text += &worst::text(&report.worst_faces);
     text += &format!("\ncertificate: {}\n", report.certificate);

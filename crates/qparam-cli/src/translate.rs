@@ -113,6 +113,16 @@ pub(crate) fn no_atlas(error: &AtlasError, islands: usize, input: &Input) -> Fai
             Failure::new(Exit::Mesh, message)
                 .help("leave --seams none out: it is cut open automatically then")
         }
+        AtlasError::KeptFaceFlipped { face } => Failure::new(
+            Exit::Computation,
+            format!(
+                "{}: face {} (line {}) cannot keep its UVs: it is turned over in the plane, or has no area there",
+                input.name,
+                face + 1,
+                input.document.face_line(*face as usize)
+            ),
+        )
+        .help("`qparam check` names all such faces; leave them out of the group"),
         AtlasError::Island { mesh, error, .. } if islands == 1 => no_map(error, mesh, input),
         AtlasError::Island { mesh, error, first_face } => {
             let line = input.document.face_line(*first_face as usize);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::ValueEnum;
-use qoptimize::atlas::{open, unwrap_charts};
+use qoptimize::atlas::{kept_seams, open, unwrap_charts};
 use qoptimize::qembed::BoundaryShape;
 use qoptimize::qmesh::charts::cut;
 use qoptimize::qmesh::obj::{UvWriteSummary, write_obj};
@@ -20,8 +20,9 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::interrupt::Phase;
-use crate::islands::refuse_repairs;
+use crate::islands::{refuse_repairs, trades};
 use crate::json_text;
+use crate::keep;
 use crate::output::Target;
 use crate::page_report::{self, Source};
 use crate::pins;
@@ -65,6 +66,7 @@ pub(crate) fn run(arguments: &UnwrapArgs, typed: &[String], io: &mut Streams<'_>
     let mut timings = Timings::default();
     let input = timed(&mut timings.read, || Input::read(&arguments.input, io.stdin))?;
     let mut options = arguments.layout.options(options);
+    options.keep = keep::collect(&arguments.layout.keep_uv, &input)?;
     let (charts, repairs) = timed(&mut timings.build, || charts(arguments, &options, &input, io))?;
     if let (BoundaryShape::Fixed(positions), Some(path)) =
         (&mut options.map.boundary, &arguments.map.boundary_uv)
@@ -114,7 +116,8 @@ fn charts(
     input: &Input,
     io: &mut Streams<'_>,
 ) -> Result<(Vec<Chart>, Repairs), Failure> {
-    let seams = seams::collect(&arguments.layout.seams, input, io)?;
+    let mut seams = seams::collect(&arguments.layout.seams, input, io)?;
+    seams.extend(kept_seams(input.document.view(), &options.keep).iter());
     let cut = cut(input.document.view(), &seams).map_err(|error| refused(&error, input))?;
     if arguments.layout.strict {
         refuse_repairs(&cut.repairs, input)?;
@@ -338,6 +341,7 @@ impl Job<'_> {
             record: record(result),
             repairs: &result.repairs,
             seams: result.seams,
+            trade: trades(result.seams, &result.islands),
             layout: result.layout,
             layout_options: layout_json(&self.options),
             islands: &result.islands,

@@ -241,6 +241,10 @@ impl UnwrapArgs {
             return Err(Failure::new(Exit::Usage, "--pin, --pins: this method cannot hold pins")
                 .help("use --method direct or conformal"));
         }
+        if !self.layout.keep_uv.is_empty() && !options.method.minimizes() {
+            return Err(Failure::new(Exit::Usage, "--keep-uv: this method cannot hold UVs")
+                .help("use --method direct or conformal"));
+        }
         let arranged = self.layout.up.is_some() || self.layout.no_pack;
         if arranged && (has_pins || options.symmetric) {
             return Err(Failure::new(
@@ -248,6 +252,14 @@ impl UnwrapArgs {
                 "--up and --no-pack move the map, which pins and --symmetric place already",
             )
             .help("leave --up and --no-pack out"));
+        }
+        let placed = has_pins || options.symmetric || self.map.boundary == BoundaryChoice::Fixed;
+        if placed && self.layout.max_stretch.is_some() {
+            return Err(Failure::new(
+                Exit::Usage,
+                "--max-stretch cuts further; pins, --symmetric and --boundary fixed belong to the island as it is",
+            )
+            .help("leave --max-stretch out, or cut with --seams FILE first"));
         }
         if has_pins && options.symmetric {
             return Err(Failure::new(Exit::Usage, "--symmetric and pins exclude each other")

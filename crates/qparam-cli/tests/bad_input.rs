@@ -2,9 +2,13 @@
 
 #![allow(clippy::unwrap_used, reason = "a failing unwrap fails the test")]
 
+#[path = "../../qmesh/tests/obj/bad_texts.rs"]
+mod bad_texts;
 mod common;
 
-use common::{CUBE, Folder, hill};
+use common::{CUBE, Folder, hill, in_process};
+use qparam_cli::Exit;
+use qparam_cli::qmesh::obj::{ObjDocument, ObjError};
 
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
@@ -51,6 +55,26 @@ fn every_bad_input_has_one_message_and_leaves_nothing() {
     insta::assert_snapshot!(shown);
 }
 
+/// Every bad text of the reader's own tests ends with code 3, its place, what was expected there, and no output.
+#[test]
+fn every_bad_text_is_refused_with_its_place() {
+    let texts = bad_texts::bad_texts();
+    assert!(texts.len() >= 57);
+    for (name, text) in texts {
+        let run = in_process(&["unwrap", "-"], &text);
+        assert_eq!((run.exit, &*run.stdout), (Exit::Input, ""), "{name}: {}", run.stderr);
+        let expected = match ObjDocument::parse(text).unwrap_err() {
+            ObjError::Mistake(mistake) => {
+                let place = format!("line {}, column {}: ", mistake.line, mistake.column);
+                let what = mistake.to_string().replace(&place, "");
+                format!("error: <stdin>:{}:{}: {what}\n", mistake.line, mistake.column)
+            }
+            other => format!("error: <stdin>: {other}\n"),
+        };
+        assert!(run.stderr.starts_with(&expected), "{name}: {}\n{expected}", run.stderr);
+    }
+}
+
 /// Faces without area, and vertices in one place: a map may or may not exist, but nobody panics, and what is
 /// written is reported truthfully.
 #[test]
@@ -67,22 +91,35 @@ fn degenerate_positions_are_survived() {
         }
         text
     };
+    const METHODS: [&str; 7] = ["direct", "conformal", "paper", "uniform", "mean-value", "harmonic", "lscm"];
     let cases = [
         ("coincident", flat(|_, _| [1.0, 2.0, 3.0])),
         ("collinear", flat(|row, column| [(row + column) as f64, 0.0, 0.0])),
         ("tiny", flat(|row, column| [1e-300 * row as f64, 1e-300 * column as f64, 0.0])),
         ("huge", flat(|row, column| [1e59 * row as f64, 1e59 * column as f64, 0.0])),
     ];
+    let mut found = String::new();
     for (name, text) in cases {
-        for method in ["direct", "conformal", "paper", "uniform", "mean-value", "harmonic", "lscm"] {
-            let folder = Folder::new();
-            folder.write("in.obj", &text);
-            let run = folder.qparam(&["unwrap", "in.obj", "--method", method]);
-            assert!([0, 5, 7].contains(&run.code), "{name}, {method}: {} {}", run.code, run.stderr);
-            assert!(!run.stderr.contains("panicked"), "{name}, {method}: {}", run.stderr);
-            assert_eq!(folder.path("in_uv.obj").exists(), run.code != 5, "{name}, {method}");
+        found += &format!("{name:12}");
+        for method in METHODS {
+            let run = in_process(&["unwrap", "-", "--method", method, "-o", "-"], text.as_bytes());
+            assert_eq!(run.stdout.is_empty(), run.exit == Exit::Computation, "{name}, {method}");
+            let key = match run.exit {
+                Exit::Done => "certificate: holds",
+                Exit::Computation => "error: ",
+                _ => "warning: the UVs are written, but not certified",
+            };
+            assert!(run.stderr.contains(key), "{name}, {method}: {}", run.stderr);
+            found += &format!("  {method} {}", run.exit.code());
         }
+        found += "\n";
     }
+    insta::assert_snapshot!(found, @r"
+    coincident    direct 5  conformal 5  paper 5  uniform 5  mean-value 5  harmonic 5  lscm 5
+    collinear     direct 5  conformal 5  paper 5  uniform 5  mean-value 5  harmonic 5  lscm 5
+    tiny          direct 0  conformal 0  paper 0  uniform 0  mean-value 0  harmonic 0  lscm 0
+    huge          direct 0  conformal 0  paper 0  uniform 0  mean-value 0  harmonic 0  lscm 0
+    ");
 }
 
 #[test]

@@ -126,3 +126,32 @@ fn tube(rings: usize) -> String {
     let last = 4 * rings;
     text + &format!("f {} {} {} {}\n", last + 1, last + 2, last + 3, last + 4)
 }
+
+/// A face that runs against its neighbours is judged as `unwrap` judges it: turned over, and named. Whole islands are not: their mirror
+/// image is a fault.
+#[test]
+fn turned_faces_are_no_fault_of_the_uvs() {
+    let folder = Folder::new();
+    let flat = flat_with_uv(3);
+    let face = flat.lines().filter(|line| line.starts_with('f')).nth(4).unwrap();
+    let mut corners: Vec<&str> = face[2..].split(' ').collect();
+    corners.reverse();
+    folder.write("one.obj", flat.replace(face, &format!("f {}", corners.join(" "))));
+    let run = folder.qparam(&["check", "one.obj"]).code(0);
+    assert!(
+        run.stdout.contains("1 face against the orientation around: turned over for this (face 5)"),
+        "{}",
+        run.stdout
+    );
+    let json = folder.qparam(&["check", "one.obj", "--json"]).code(0).json();
+    assert_eq!(json["files"][0]["turned_faces"], serde_json::json!([4]));
+    let measured = folder.qparam(&["measure", "--check", "one.obj", "--json"]).code(0).json();
+    assert_eq!(measured["files"][0]["distortion"]["flipped_corners"], 0);
+    // Unwrapped by us, checked by us: the same verdict.
+    folder.qparam(&["unwrap", "one.obj", "-o", "out.obj"]).code(0);
+    folder.qparam(&["check", "out.obj"]).code(0);
+    let mirrored = flat.replace("vt ", "vt -");
+    folder.write("mirrored.obj", mirrored);
+    let run = folder.qparam(&["check", "mirrored.obj"]).code(7);
+    assert!(!run.stdout.contains("turned over for this"), "{}", run.stdout);
+}

@@ -17,9 +17,14 @@ pub(super) struct Sides {
     pub(super) corner_face: Vec<u32>,
 }
 
-/// Makes neighbours agree, and separates those that cannot. Of each piece the fewer faces are turned over; when there
-/// are as many of both, not the first.
-pub(super) fn orient(polygons: PolygonView<'_>, mates: &mut [u32], repairs: &mut Repairs) -> Sides {
+/// Makes neighbours agree, and separates those that cannot. Of all faces that hang together, across seams too (`joined`), the
+/// fewer are turned over; when there are as many of both, not the first. So seams have no say in which way a face goes.
+pub(super) fn orient(
+    polygons: PolygonView<'_>,
+    mates: &mut [u32],
+    joined: &[u32],
+    repairs: &mut Repairs,
+) -> Sides {
     let faces = polygons.face_count();
     let mut sides = Sides {
         piece: vec![NONE; faces],
@@ -27,43 +32,87 @@ pub(super) fn orient(polygons: PolygonView<'_>, mates: &mut [u32], repairs: &mut
         is_flipped: vec![false; faces],
         corner_face: corner_faces(polygons),
     };
-    let mut queue = VecDeque::new();
-    let mut members = Vec::new();
+    let mut members = Vec::with_capacity(faces);
+    let mut starts = vec![0];
     for seed in 0..faces {
-        if sides.piece[seed] != NONE {
-            continue;
+        if sides.piece[seed] == NONE {
+            sides.spread(polygons, mates, seed, &mut members);
+            starts.push(members.len());
         }
-        sides.piece[seed] = sides.pieces as u32;
-        queue.push_back(seed);
-        members.clear();
-        // In rings around the seed, so that where the two sides of a one-sided surface meet is about straight.
-        while let Some(face) = queue.pop_front() {
-            members.push(face);
-            for corner in polygons.corners(face) {
-                let mate = mates[corner];
-                if mate == NONE {
-                    continue;
-                }
-                let neighbor = sides.corner_face[mate as usize] as usize;
-                if sides.piece[neighbor] == NONE {
-                    sides.piece[neighbor] = sides.pieces as u32;
-                    sides.is_flipped[neighbor] =
-                        sides.is_flipped[face] ^ same_way(polygons, corner as u32, mate);
-                    queue.push_back(neighbor);
+    }
+    let turned = turned_pieces(polygons, joined, &sides, &members, &starts);
+    for (face, is_flipped) in sides.is_flipped.iter_mut().enumerate() {
+        *is_flipped ^= turned[sides.piece[face] as usize];
+    }
+    let flipped = (0..faces).filter(|&face| sides.is_flipped[face]);
+    flipped.for_each(|face| repairs.flipped_faces.push(face as u32));
+    separate(polygons, mates, &sides, repairs);
+    sides
+}
+
+impl Sides {
+    /// The piece of `seed`, in rings around it, so that where the two sides of a one-sided surface meet is about straight; its faces are
+    /// appended to `members`.
+    fn spread(&mut self, polygons: PolygonView<'_>, mates: &[u32], seed: usize, members: &mut Vec<u32>) {
+        let mut next = members.len();
+        self.piece[seed] = self.pieces as u32;
+        members.push(seed as u32);
+        while next < members.len() {
+            let face = members[next] as usize;
+            next += 1;
+            for corner in polygons.corners(face).filter(|&corner| mates[corner] != NONE) {
+                let neighbor = self.corner_face[mates[corner] as usize] as usize;
+                if self.piece[neighbor] == NONE {
+                    self.piece[neighbor] = self.pieces as u32;
+                    self.is_flipped[neighbor] =
+                        self.is_flipped[face] ^ same_way(polygons, corner as u32, mates[corner]);
+                    members.push(neighbor as u32);
                 }
             }
         }
-        let flipped = members.iter().filter(|&&face| sides.is_flipped[face]).count();
-        if 2 * flipped > members.len() {
-            members.iter().for_each(|&face| sides.is_flipped[face] ^= true);
-        }
-        sides.pieces += 1;
+        self.pieces += 1;
     }
-    (0..faces)
-        .filter(|&face| sides.is_flipped[face])
-        .for_each(|face| repairs.flipped_faces.push(face as u32));
-    separate(polygons, mates, &sides, repairs);
-    sides
+}
+
+/// Which pieces are to be turned over as a whole, so that pieces agree across the seams between them as far as that is possible.
+fn turned_pieces(
+    polygons: PolygonView<'_>,
+    joined: &[u32],
+    sides: &Sides,
+    members: &[u32],
+    starts: &[usize],
+) -> Vec<bool> {
+    let of_piece = |piece: usize| members[starts[piece]..starts[piece + 1]].iter().map(|&face| face as usize);
+    let mut turned = vec![false; sides.pieces];
+    let mut seen = vec![false; sides.pieces];
+    let mut queue = VecDeque::new();
+    for seed in 0..sides.pieces {
+        if std::mem::replace(&mut seen[seed], true) {
+            continue;
+        }
+        queue.push_back(seed);
+        let (mut together, mut faces, mut flipped) = (Vec::new(), 0, 0);
+        while let Some(piece) = queue.pop_front() {
+            together.push(piece);
+            for face in of_piece(piece) {
+                let is_flipped = sides.is_flipped[face] ^ turned[piece];
+                (faces, flipped) = (faces + 1, flipped + usize::from(is_flipped));
+                for corner in polygons.corners(face).filter(|&corner| joined[corner] != NONE) {
+                    let neighbor = sides.corner_face[joined[corner] as usize] as usize;
+                    let other = sides.piece[neighbor] as usize;
+                    if !std::mem::replace(&mut seen[other], true) {
+                        let wanted = is_flipped ^ same_way(polygons, corner as u32, joined[corner]);
+                        turned[other] = sides.is_flipped[neighbor] ^ wanted;
+                        queue.push_back(other);
+                    }
+                }
+            }
+        }
+        if 2 * flipped > faces {
+            together.into_iter().for_each(|piece| turned[piece] ^= true);
+        }
+    }
+    turned
 }
 
 /// Takes apart neighbours that still run the same way along their edge.

@@ -6,15 +6,16 @@ use crate::build::NONE;
 use crate::polygons::PolygonView;
 
 /// For the edge from each corner to the next of its face: the corner behind which the same edge lies in the other face;
-/// `NONE` at boundaries, seams, and edges that are no two faces' own.
+/// `NONE` at boundaries and edges that are no two faces' own. First without those at seams, then with them.
 pub(super) fn pair(
     polygons: PolygonView<'_>,
     layer: &[u32],
     alone: &[u32],
     seams: &Seams,
     repairs: &mut Repairs,
-) -> Vec<u32> {
-    let mut mates = vec![NONE; polygons.corner_count()];
+) -> [Vec<u32>; 2] {
+    let mut joined = vec![NONE; polygons.corner_count()];
+    let mut at_seams = Vec::new();
     let edges = Edges::new(polygons, layer, alone);
     let mut nonmanifold = Vec::new();
     let mut bucket: Vec<Edge> = Vec::new();
@@ -26,18 +27,23 @@ pub(super) fn pair(
             let ends = [low as u32, group[0].high];
             match group {
                 [_] => {}
-                _ if !seams.is_empty() && seams.contains(ends[0], ends[1]) => {}
                 [a, b] => {
-                    mates[a.corner as usize] = b.corner;
-                    mates[b.corner as usize] = a.corner;
+                    joined[a.corner as usize] = b.corner;
+                    joined[b.corner as usize] = a.corner;
+                    if !seams.is_empty() && seams.contains(ends[0], ends[1]) {
+                        at_seams.extend([a.corner, b.corner]);
+                    }
                 }
+                _ if !seams.is_empty() && seams.contains(ends[0], ends[1]) => {}
                 _ => nonmanifold.push(ends),
             }
         }
     }
     nonmanifold.dedup();
     nonmanifold.into_iter().for_each(|edge| repairs.nonmanifold_edges.push(edge));
-    mates
+    let mut mates = joined.clone();
+    at_seams.into_iter().for_each(|corner| mates[corner as usize] = NONE);
+    [mates, joined]
 }
 
 /// One face's side of an edge, in the order in which sides are grouped.

@@ -43,4 +43,42 @@ impl ObjDocument {
         }
         labels
     }
+
+    /// Whether each face belongs to the group, object or material of this name. A face may be in several groups at once (`g a b`).
+    ///
+    /// ```
+    /// use qmesh::obj::ObjDocument;
+    ///
+    /// let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\ng left ear\nf 1 2 3\ng nose\nusemtl ear\nf 1 2 3\nusemtl skin\nf 1 2 3\n";
+    /// let document = ObjDocument::parse(text.into())?;
+    /// assert_eq!(document.faces_named(b"ear"), [true, true, false]);
+    /// # Ok::<(), qmesh::obj::ObjError>(())
+    /// ```
+    #[must_use]
+    pub fn faces_named(&self, name: &[u8]) -> Vec<bool> {
+        let text = self.bytes();
+        let mut is_inside = [false; 3];
+        let mut named = Vec::with_capacity(self.face_count());
+        for statement in Statements::new(text) {
+            match statement.keyword {
+                Keyword::Face => named.push(is_inside.contains(&true)),
+                Keyword::Other => {
+                    let line = text[statement.span].trim_ascii();
+                    let end = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
+                    let rest = line[end..].trim_ascii();
+                    match &line[..end] {
+                        b"g" => {
+                            let mut names = rest.split(u8::is_ascii_whitespace);
+                            is_inside[0] = rest == name || names.any(|group| group == name);
+                        }
+                        b"o" => is_inside[1] = rest == name,
+                        b"usemtl" => is_inside[2] = rest == name,
+                        _ => {}
+                    }
+                }
+                _ => {}
+            }
+        }
+        named
+    }
 }

@@ -1,5 +1,6 @@
 //! The lossless OBJ layer, seen from outside.
 
+mod bad_texts;
 mod independent;
 mod mistakes;
 mod reader;

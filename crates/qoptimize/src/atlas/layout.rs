@@ -4,6 +4,7 @@ use qembed::qmesh::Vec2;
 use qembed::qmesh::obj::UvPrecision;
 use rayon::prelude::*;
 
+use super::keep::is_touched;
 use super::solve::Solved;
 use super::upright::{rotation, turned};
 use super::{AtlasOptions, Density, Layout, measures};
@@ -37,6 +38,41 @@ pub(super) fn arrange(solved: &mut [Solved], options: &AtlasOptions) -> Layout {
         place(island, |p| *scale * p + offset);
     });
     layout(solved, &packed, options)
+}
+
+/// Leaves islands with kept UVs where they are, and lays the others out above them at their mean density.
+pub(super) fn beside(solved: &mut [Solved], options: &AtlasOptions) {
+    let mut kept = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY), [0.0; 2]);
+    let mut others: Vec<&mut Solved> = Vec::new();
+    for island in solved {
+        let areas = measures::areas(&island.chart.mesh, &island.uv);
+        if is_touched(&island.chart, &options.keep) {
+            kept.0 = island.uv.iter().fold(kept.0, |low, p| low.inf(p));
+            kept.1 = island.uv.iter().fold(kept.1, |high, p| high.sup(p));
+            kept.2 = [kept.2[0] + areas[0], kept.2[1] + areas[1]];
+            continue;
+        }
+        let rotation = rotation(&island.chart.mesh, &island.uv, options.up.unwrap_or_default());
+        let factor = factor(areas, areas[0], options);
+        place(island, |p| factor * turned(p, rotation));
+        others.push(island);
+    }
+    let (low, high, [space, plane]) = kept;
+    let density = (plane / space).sqrt();
+    let scale = if density.is_finite() && density > 0.0 { density } else { 1.0 };
+    let width = (high - low).x;
+    let shapes: Vec<Shape<'_>> = others
+        .iter()
+        .map(|island| Shape { face_start: island.chart.mesh.view().face_start, uv: &island.uv })
+        .collect();
+    if shapes.is_empty() {
+        return;
+    }
+    let packed = lay_out(&shapes, scale, if width > 0.0 { width } else { 1.0 }, &options.pack);
+    let above = Vec2::new(low.x, high.y + width * options.pack.margin / f64::from(options.pack.resolution));
+    for (island, offset) in others.into_iter().zip(&packed.offsets) {
+        place(island, |p| packed.scale * p + offset + above);
+    }
 }
 
 /// Moves an island; faces that the rounding of its new coordinates turned over are mended.

@@ -1,7 +1,7 @@
 //! Figures of charts and of the whole.
 
 use qembed::qcurv::surface_area;
-use qembed::qmesh::{FaceId, PolygonView, Polygons, QuadMesh, Vec2, VertexId};
+use qembed::qmesh::{BuildError, Chart, PolygonView, Polygons, QuadMesh, Seams, Vec2, VertexId, charts};
 use rayon::prelude::*;
 
 use super::SeamLength;
@@ -21,19 +21,7 @@ pub(super) fn areas(mesh: &QuadMesh, uv: &[Vec2]) -> [f64; 2] {
 
 /// The polygons' faces that run backwards in their chart, ascending.
 pub(super) fn turned_faces(solved: &[Solved]) -> Vec<u32> {
-    let mut turned: Vec<u32> = solved
-        .iter()
-        .flat_map(|island| {
-            let is_turned = |face: &FaceId| {
-                let mut corners =
-                    island.chart.mesh.face_corners(*face).map(|c| island.chart.source_corner(c));
-                let [first, second] = [corners.next(), corners.next()];
-                first.zip(second).is_some_and(|(first, second)| second != first + 1)
-            };
-            let faces = island.chart.mesh.faces().filter(is_turned);
-            faces.map(|face| island.chart.source_face(face)).collect::<Vec<_>>()
-        })
-        .collect();
+    let mut turned: Vec<u32> = solved.iter().flat_map(|island| island.chart.turned_faces()).collect();
     turned.sort_unstable();
     turned
 }
@@ -52,6 +40,26 @@ pub(super) fn oriented(polygons: PolygonView<'_>, turned: &[u32], uv: &[Vec2]) -
         uv[rest].reverse();
     }
     (oriented, uv)
+}
+
+/// The polygons and their UVs with the faces turned over that run against their neighbours, as [`unwrap`](super::unwrap) turns them, and
+/// which these are: what measures and certificates of UVs from elsewhere are about. Seams are where UVs differ.
+///
+/// # Errors
+/// Polygons of which no charts can be made: see [`BuildError`].
+///
+/// # Panics
+/// When there is not one UV per corner.
+pub fn consistent(
+    polygons: PolygonView<'_>,
+    uv: &[Vec2],
+) -> Result<(Polygons, Vec<Vec2>, Vec<u32>), BuildError> {
+    let seams = Seams::among_all(polygons, |a, b| (0..2).any(|end| uv[a[end]] != uv[b[end]]));
+    let charts = charts::cut(polygons, &seams)?.charts;
+    let mut turned: Vec<u32> = charts.iter().flat_map(Chart::turned_faces).collect();
+    turned.sort_unstable();
+    let (polygons, uv) = oriented(polygons, &turned, uv);
+    Ok((polygons, uv, turned))
 }
 
 /// A certificate of a chart with the caller's vertices.

@@ -1,6 +1,7 @@
 //! What can be chosen, and what can go wrong.
 
-use qembed::qmesh::{BuildError, QuadMesh, Vec3};
+use qembed::BoundaryShape;
+use qembed::qmesh::{BuildError, QuadMesh, Vec2, Vec3};
 
 use crate::distortion::MeasureError;
 use crate::error::ParameterizeError;
@@ -63,6 +64,11 @@ pub struct AtlasOptions {
     /// Turn islands so that this axis points up. `None`, the default: y where there are several islands, none where there is
     /// one.
     pub up: Option<UpAxis>,
+    /// For each corner of the polygons the UV that it keeps; empty, the default, when none does. Faces with such corners have them all.
+    /// The rest of their island is mapped to meet them, by a method that can hold pins; other islands are laid out above theirs, at
+    /// their mean density. Charts have to be cut at [`kept_seams`](super::kept_seams).
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub keep: Vec<Option<Vec2>>,
     /// How islands are packed.
     pub pack: PackOptions,
     /// Leave the islands in their size in space, beside each other, instead of fitting them into the unit square. Default
@@ -78,6 +84,7 @@ impl Default for AtlasOptions {
             max_stretch: None,
             density: Density::Equal,
             up: None,
+            keep: Vec::new(),
             pack: PackOptions::default(),
             true_scale: false,
         }
@@ -107,6 +114,15 @@ pub enum AtlasError {
     /// An option of the map is out of range.
     #[error(transparent)]
     Options(ParameterizeError),
+    /// Islands that are to be cut further have no vertices yet whose places could be given.
+    #[error("further cuts exclude {0}")]
+    CutsExclude(&'static str),
+    /// A face that is to keep its UVs is turned over there, or has no area.
+    #[error("face {face} cannot keep its UVs: it is turned over in the plane, or has no area there")]
+    KeptFaceFlipped {
+        /// The face.
+        face: u32,
+    },
     /// The only island has no map, or an island is closed and may not be cut open.
     #[error("the island of face {first_face} has no map: {error}")]
     Island {
@@ -130,6 +146,20 @@ impl AtlasOptions {
             && !(bound > 1.0 && bound.is_finite())
         {
             return refuse("the largest stretch", bound, "a number above 1");
+        }
+        if self.keep.iter().any(Option::is_some) && !self.map.method.minimizes() {
+            return Err(AtlasError::Options(ParameterizeError::OtherMethod("kept UVs")));
+        }
+        let given = [
+            (!self.map.pins.is_empty(), "pins"),
+            (self.map.symmetric, "symmetric maps"),
+            (matches!(self.map.boundary, BoundaryShape::Fixed(_)), "a fixed boundary"),
+            (!self.keep.is_empty(), "kept UVs"),
+        ];
+        if let Some((_, what)) = given.into_iter().find(|(is_given, _)| *is_given)
+            && self.max_stretch.is_some()
+        {
+            return Err(AtlasError::CutsExclude(what));
         }
         if let Density::Texels(texels) = self.density
             && !(texels > 0.0 && texels.is_finite())

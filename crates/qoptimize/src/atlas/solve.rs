@@ -7,8 +7,9 @@ use qembed::qmesh::obj::UvPrecision;
 use qembed::qmesh::{Chart, CornerData, Observer, Vec2};
 use rayon::prelude::*;
 
+use super::refine::Refinement;
 use super::stretch::stretch;
-use super::{AtlasError, AtlasOptions, Island, measures};
+use super::{AtlasError, AtlasOptions, Island, keep, measures};
 use crate::certificate::Certificate;
 use crate::convexity::Exempt;
 use crate::direct::find_start;
@@ -27,6 +28,8 @@ pub(super) struct Solved {
     pub(super) certificate: Option<Certificate>,
     pub(super) record: RunRecord,
     pub(super) fallback: Option<String>,
+    /// How it was cut further, where that was asked for and needed.
+    pub(super) refinement: Option<Refinement>,
 }
 
 /// Maps all charts, in parallel and each as if it were alone.
@@ -35,7 +38,9 @@ pub(super) fn all(
     options: &AtlasOptions,
     observer: &dyn Observer,
 ) -> Result<Vec<Solved>, AtlasError> {
-    if let [_] = &charts[..] {
+    if let [chart] = &charts[..]
+        && !keep::is_touched(chart, &options.keep)
+    {
         return charts.into_iter().map(|chart| alone(chart, &options.map, observer)).collect();
     }
     let map = of_many(options);
@@ -43,7 +48,11 @@ pub(super) fn all(
     let solved: Vec<Result<Solved, AtlasError>> = charts
         .into_par_iter()
         .map(|chart| {
-            let solved = among_others(chart, &map, &shared);
+            let solved = if keep::is_touched(&chart, &options.keep) {
+                keep::solve(chart, &options.keep, &map, &shared)
+            } else {
+                among_others(chart, &map, &shared)
+            };
             shared.done.fetch_add(1, Ordering::Relaxed);
             solved
         })
@@ -70,7 +79,7 @@ impl Observer for Shared<'_> {
 }
 
 /// The only chart: errors are errors.
-fn alone(chart: Chart, options: &Options, observer: &dyn Observer) -> Result<Solved, AtlasError> {
+pub(super) fn alone(chart: Chart, options: &Options, observer: &dyn Observer) -> Result<Solved, AtlasError> {
     match parameterize(&chart.mesh, options, observer) {
         Ok(map) => Ok(Solved {
             chart,
@@ -79,6 +88,7 @@ fn alone(chart: Chart, options: &Options, observer: &dyn Observer) -> Result<Sol
             certificate: Some(map.certificate),
             record: map.record,
             fallback: None,
+            refinement: None,
         }),
         Err(error) => Err(refusal(chart, error)),
     }
@@ -115,7 +125,7 @@ pub(super) fn among_others(
         Ok(uv) => {
             let distortion = measure(chart.mesh.view(), &uv).ok();
             let (record, fallback) = (RunRecord::default(), Some(error.to_string()));
-            Ok(Solved { chart, uv, distortion, certificate: None, record, fallback })
+            Ok(Solved { chart, uv, distortion, certificate: None, record, fallback, refinement: None })
         }
         Err(error) => Err(refusal(chart, error)),
     }
@@ -144,6 +154,7 @@ impl Solved {
             flipped_corners: self.distortion.as_ref().map_or(0, |found| found.flipped_corners),
             boundary_crossings: self.distortion.as_ref().map_or(0, |found| found.boundary_crossings),
             fallback: self.fallback,
+            refinement: self.refinement,
             record: self.record,
         }
     }

@@ -13,6 +13,10 @@ pub struct StretchMeasure {
     pub quantile: f64,
     /// The vertex around which stretch is largest, as the area-weighted mean over its corners.
     pub worst: VertexId,
+    /// The same among the vertices that are not on the boundary.
+    pub worst_inside: Option<VertexId>,
+    /// The vertex off the boundary whose surroundings have least area in the plane for their area in space.
+    pub smallest_inside: Option<VertexId>,
 }
 
 /// The stretch of an island: at each corner triangle the larger of `s1` and `1/s2`, with `s1 ≥ s2` the singular values of its map
@@ -23,13 +27,14 @@ pub fn stretch(mesh: &QuadMesh, uv: &[Vec2]) -> StretchMeasure {
     let [space, plane] = super::measures::areas(mesh, uv);
     let scale = if plane > 0.0 { (space / plane).sqrt() } else { 1.0 };
     let mut values: Vec<(f64, f64)> = Vec::with_capacity(mesh.corner_count());
-    let mut around = mesh.vertex_data(|_| [0.0f64; 2]);
+    let mut around = mesh.vertex_data(|_| Around::default());
     for corner in mesh.corners() {
         let Some((stretch, area)) = corner_stretch(mesh, uv, corner, scale) else { continue };
         values.push((stretch, area));
-        let [sum, weight] = &mut around[mesh.vertex(corner)];
-        *sum += stretch.min(1e9) * area;
-        *weight += area;
+        let here = &mut around[mesh.vertex(corner)];
+        here.stretch += stretch.min(1e9) * area;
+        here.area += area;
+        here.plane += plane_area(mesh, uv, corner);
     }
     values.sort_by(|a, b| b.0.total_cmp(&a.0));
     let total: f64 = values.iter().map(|value| value.1).sum();
@@ -38,11 +43,41 @@ pub fn stretch(mesh: &QuadMesh, uv: &[Vec2]) -> StretchMeasure {
         passed += value.1;
         passed > TAIL * total
     });
-    let mean = |[sum, weight]: [f64; 2]| if weight > 0.0 { sum / weight } else { 0.0 };
-    let worst = around.entries().fold((VertexId(0), 0.0), |best, (vertex, &sums)| {
-        if mean(sums) > best.1 { (vertex, mean(sums)) } else { best }
-    });
-    StretchMeasure { quantile: beyond.map_or(1.0, |value| value.0), worst: worst.0 }
+    let largest = |inside: bool, of: fn(&Around) -> f64| {
+        let wanted = around
+            .entries()
+            .filter(|(vertex, around)| around.area > 0.0 && !(inside && mesh.is_boundary(*vertex)));
+        wanted.fold(None, |best: Option<(VertexId, f64)>, (vertex, around)| match best {
+            Some((_, known)) if known >= of(around) => best,
+            _ => Some((vertex, of(around))),
+        })
+    };
+    let stretched: fn(&Around) -> f64 = |around| around.stretch / around.area;
+    let vertex = |found: Option<(VertexId, f64)>| found.map(|(vertex, _)| vertex);
+    StretchMeasure {
+        quantile: beyond.map_or(1.0, |value| value.0),
+        worst: vertex(largest(false, stretched)).unwrap_or(VertexId(0)),
+        worst_inside: vertex(largest(true, stretched)),
+        smallest_inside: vertex(largest(true, |around| -around.plane / around.area)),
+    }
+}
+
+/// Sums over the corners around a vertex.
+#[derive(Clone, Copy, Debug, Default)]
+struct Around {
+    /// Of stretch times area in space.
+    stretch: f64,
+    /// Of areas in space.
+    area: f64,
+    /// Of areas in the plane.
+    plane: f64,
+}
+
+/// The area in the plane of a corner triangle.
+fn plane_area(mesh: &QuadMesh, uv: &[Vec2], corner: CornerId) -> f64 {
+    let here = uv[corner.index()];
+    let [p, q] = [mesh.next_corner(corner), mesh.previous_corner(corner)].map(|c| uv[c.index()] - here);
+    0.5 * p.perp(&q)
 }
 
 /// Stretch and area in space of a corner triangle; nothing when it has no area.

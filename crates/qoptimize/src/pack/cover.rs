@@ -7,6 +7,9 @@ use super::Shape;
 /// Cells are covered when an island comes within this fraction of a cell: far more than coordinates round.
 const SLACK: f64 = 1e-6;
 
+/// Cells in a row, and rows, at most: what is larger has no place on any grid, and is only to do no harm.
+const MOST_CELLS: f64 = 1e6;
+
 /// The cells that contain an island and its margin; the lowest and leftmost have coordinate 0.
 pub(super) struct Cover {
     width: u32,
@@ -69,7 +72,7 @@ impl Cover {
 
 /// Appends `[row, from, to]` for each row of cells that comes within `around` of the convex hull of a face.
 fn cover_face(corners: &[Vec2], at: impl Fn(&Vec2) -> Vec2, around: f64, spans: &mut Vec<[u32; 3]>) {
-    let cell = |x: f64| x.max(0.0).floor() as u32;
+    let cell = |x: f64| x.clamp(0.0, MOST_CELLS).floor() as u32;
     let low = corners.iter().map(|p| at(p).y).fold(f64::INFINITY, f64::min) - around;
     let high = corners.iter().map(|p| at(p).y).fold(f64::NEG_INFINITY, f64::max) + around;
     for row in cell(low)..=cell(high) {
@@ -87,7 +90,7 @@ fn cover_face(corners: &[Vec2], at: impl Fn(&Vec2) -> Vec2, around: f64, spans: 
             let end = if b.y > top { b.x - slope * (b.y - top) } else { b.x };
             // Rounding of steep slopes stays within the edge.
             for x in [start, end] {
-                let x = x.clamp(a.x.min(b.x), a.x.max(b.x));
+                let x = x.max(a.x.min(b.x)).min(a.x.max(b.x));
                 (left, right) = (left.min(x), right.max(x));
             }
             if a.y == b.y {

@@ -6,6 +6,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use qparam_cli::{Environment, Exit, Interrupt, Streams};
+
 /// An empty folder in which `qparam` runs; removed at the end of the test.
 pub struct Folder(tempfile::TempDir);
 
@@ -75,6 +77,36 @@ impl Run {
     pub fn json(&self) -> serde_json::Value {
         serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{error}:\n{}", self.stdout))
     }
+}
+
+/// What a run in this process left behind.
+pub struct Ended {
+    pub exit: Exit,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+/// The command in this process, with `stdin` as its standard input.
+pub fn in_process(arguments: &[&str], stdin: &[u8]) -> Ended {
+    interrupted(arguments, stdin, &Interrupt::new())
+}
+
+/// The same with somebody who may interrupt it.
+pub fn interrupted(arguments: &[&str], mut stdin: &[u8], interrupt: &Interrupt) -> Ended {
+    let (mut output, mut messages) = (Vec::new(), Vec::new());
+    let mut streams = Streams {
+        stdin: &mut stdin,
+        stdout: &mut output,
+        stderr: &mut messages,
+        stdout_color: false,
+        stderr_color: false,
+        stderr_is_terminal: false,
+        interrupt,
+    };
+    let arguments = ["qparam"].iter().chain(arguments).map(|&argument| argument.into());
+    let exit = qparam_cli::run(arguments, &Environment::default(), &mut streams);
+    let text = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).into_owned();
+    Ended { exit, stdout: text(output), stderr: text(messages) }
 }
 
 pub fn names(folder: &Path) -> Vec<String> {

@@ -1,0 +1,105 @@
+//! Cancelled at every place where the work can be cancelled: an error that says so, or a map that was done already.
+
+#![allow(clippy::unwrap_used, reason = "a failing unwrap fails the test")]
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use qoptimize::qembed::qmesh::charts::cut;
+use qoptimize::qembed::qmesh::{Polygons, Seams, shapes};
+use qoptimize::{AtlasError, AtlasOptions, Method, Options, atlas};
+
+/// Calls of the observer, counted; the one with number `stop` (from 0) and all later ones ask to stop.
+fn run(
+    polygons: &Polygons,
+    options: &AtlasOptions,
+    stop: usize,
+) -> (Result<atlas::Atlas, AtlasError>, usize) {
+    let calls = AtomicUsize::new(0);
+    let observer = |_: &'static str, fraction: f64| {
+        assert!((0.0..=1.0).contains(&fraction), "{fraction} is no fraction");
+        let call = calls.fetch_add(1, Ordering::SeqCst);
+        if call < stop { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    };
+    let result = atlas::unwrap(polygons.view(), &Seams::default(), options, &observer);
+    (result, calls.into_inner())
+}
+
+fn meshes() -> Vec<(&'static str, Polygons)> {
+    let of = |mesh: &qoptimize::qembed::qmesh::QuadMesh| {
+        let view = mesh.view();
+        Polygons {
+            positions: view.positions.to_vec(),
+            face_start: view.face_start.to_vec(),
+            corner_vertex: view.corner_vertex.to_vec(),
+        }
+    };
+    let mut pair = of(&shapes::sphere(2));
+    let before = pair.positions.len() as u32;
+    let other = of(&shapes::cylinder(6, 2));
+    pair.positions.extend(&other.positions);
+    for face in 0..other.view().face_count() {
+        let face: Vec<u32> = other.view().face(face).iter().map(|v| v + before).collect();
+        pair.push_face(&face);
+    }
+    vec![
+        ("a cap", of(&shapes::cap(4, 2.0))),
+        ("a tube", of(&shapes::cylinder(8, 3))),
+        ("a sphere", of(&shapes::sphere(2))),
+        ("a sphere and a tube", pair),
+    ]
+}
+
+fn options() -> Vec<(&'static str, AtlasOptions)> {
+    let with = |method: Method| AtlasOptions {
+        map: Options { method, ..Options::default() },
+        ..AtlasOptions::default()
+    };
+    let mut all: Vec<_> = [
+        ("direct", Method::Direct),
+        ("conformal", Method::Conformal),
+        ("paper", Method::Paper),
+        ("uniform", Method::Uniform),
+        ("lscm", Method::Lscm),
+    ]
+    .map(|(name, method)| (name, with(method)))
+    .into();
+    all.push(("more cuts", AtlasOptions { max_stretch: Some(1.8), ..with(Method::Direct) }));
+    all
+}
+
+/// Each stage hears of the request: whichever call it comes with, the work ends cancelled, and never with a map that is half done. Only when
+/// the last call has been answered there is a map, the same as ever.
+#[test]
+fn every_call_may_be_the_last() {
+    let mut total = 0;
+    for (shape, polygons) in meshes() {
+        for (name, options) in options() {
+            let (whole, calls) = run(&polygons, &options, usize::MAX);
+            let whole = whole.unwrap_or_else(|error| panic!("{name} of {shape}: {error}"));
+            assert!(calls > 4, "{name} of {shape}: {calls} calls");
+            total += calls;
+            for stop in 0..calls {
+                let (stopped, _) = run(&polygons, &options, stop);
+                match stopped {
+                    Err(AtlasError::Cancelled) => {}
+                    other => panic!("{name} of {shape}, call {stop} of {calls}: {other:?}"),
+                }
+            }
+            let (again, _) = run(&polygons, &options, calls);
+            assert_eq!(again.unwrap().uv, whole.uv, "{name} of {shape}");
+        }
+    }
+    assert!(total > 300, "{total} places to stop at");
+}
+
+/// Charts that are there already: the same.
+#[test]
+fn charts_can_be_cancelled_too() {
+    let polygons = meshes().remove(0).1;
+    let charts = cut(polygons.view(), &Seams::default()).unwrap();
+    let stop = |_: &'static str, _: f64| ControlFlow::Break(());
+    let result =
+        atlas::unwrap_charts(polygons.view(), charts.charts, charts.repairs, &AtlasOptions::default(), &stop);
+    assert_eq!(result.unwrap_err(), AtlasError::Cancelled);
+}

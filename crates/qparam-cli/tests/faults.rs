@@ -1,0 +1,143 @@
+//! Faults on purpose: interrupted wherever the work can be, too little memory, few threads, two runs at once.
+
+#![allow(clippy::unwrap_used, reason = "a failing unwrap fails the test")]
+
+mod common;
+
+use common::{CUBE, Folder, hill, interrupted};
+use qparam_cli::{Exit, Interrupt};
+
+/// Interrupted at every place that looks for it: code 130 and not a file more than before, or the whole file. Never a part of one.
+#[test]
+fn an_interruption_at_any_moment_leaves_all_or_nothing() {
+    let cases: [(&str, String, &[&str]); 4] = [
+        ("a hill", hill(4), &[]),
+        ("a cube", CUBE.to_owned(), &["--max-stretch", "1.1"]),
+        ("the paper's method", hill(4), &["--method", "paper"]),
+        (
+            "two islands",
+            CUBE.to_owned() + "v 5 0 0\nv 6 0 0\nv 6 1 0\nv 5 1 0\nf 9 10 11 12\n",
+            &["--threads", "1"],
+        ),
+    ];
+    for (name, text, more) in cases {
+        let mut stops = 0;
+        for looks in 0.. {
+            let folder = Folder::new();
+            folder.write("in.obj", &text);
+            folder.write("out.obj", "old");
+            let [input, output] = ["in.obj", "out.obj"].map(|file| folder.path(file).display().to_string());
+            let arguments = [&["unwrap", &input, "-o", &output], more].concat();
+            let run = interrupted(&arguments, b"", &Interrupt::after_looks(looks));
+            assert_eq!(folder.names(), ["in.obj", "out.obj"], "{name}, look {looks}");
+            assert_eq!(folder.read("in.obj"), text, "{name}, look {looks}");
+            if run.exit == Exit::Done {
+                assert_eq!(
+                    folder.read("out.obj").matches("f ").count(),
+                    text.matches("f ").count(),
+                    "{name}"
+                );
+                break;
+            }
+            assert_eq!(run.exit, Exit::Interrupted, "{name}, look {looks}: {}", run.stderr);
+            assert_eq!(folder.read("out.obj"), "old", "{name}, look {looks}");
+            stops += 1;
+        }
+        assert!(stops > 10, "{name}: only {stops} places look for an interruption");
+    }
+}
+
+/// With less and less memory: a result that is whole, or the process ends without one. Never half a file.
+#[cfg(target_os = "linux")]
+#[test]
+fn too_little_memory_leaves_all_or_nothing() {
+    let folder = Folder::new();
+    folder.write("in.obj", hill(60));
+    let (mut done, mut failed) = (0, 0);
+    for kilobytes in [20_000, 40_000, 60_000, 80_000, 120_000, 200_000, 400_000, 2_000_000] {
+        let program = env!("CARGO_BIN_EXE_qparam");
+        let script =
+            format!("ulimit -v {kilobytes}; exec '{program}' unwrap in.obj -o out.obj --threads 1 --quiet");
+        let output = std::process::Command::new("sh")
+            .args(["-c", &script])
+            .current_dir(folder.path(""))
+            .output()
+            .unwrap();
+        if output.status.code() == Some(0) {
+            assert_eq!(folder.names(), ["in.obj", "out.obj"]);
+            assert_eq!(folder.read("out.obj").lines().filter(|line| line.starts_with("f ")).count(), 3600);
+            std::fs::remove_file(folder.path("out.obj")).unwrap();
+            done += 1;
+        } else {
+            // What ends a process that gets no memory may leave its temporary file, but no output.
+            assert!(!folder.path("out.obj").exists(), "{kilobytes} kB: {output:?}");
+            failed += 1;
+        }
+    }
+    assert!(done > 0 && failed > 0, "{done} done, {failed} failed");
+}
+
+/// One thread, or many more than there are processors: the same bytes.
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let folder = Folder::new();
+    folder.write("in.obj", CUBE.to_owned() + "v 5 0 0\nv 6 0 0\nv 6 1 0\nv 5 1 0\nf 9 10 11 12\n");
+    for threads in ["1", "2", "64"] {
+        folder.qparam(&["unwrap", "in.obj", "-o", &format!("{threads}.obj"), "--threads", threads]).code(0);
+    }
+    assert_eq!(folder.read("1.obj"), folder.read("2.obj"));
+    assert_eq!(folder.read("1.obj"), folder.read("64.obj"));
+}
+
+/// Runs at once on one output: each writes its own temporary file, and the last to finish has its map there, whole.
+#[test]
+fn several_runs_on_one_output_do_not_mix() {
+    let folder = Folder::new();
+    folder.write("a.obj", hill(20));
+    folder.write("b.obj", hill(24));
+    let run = |input: &str| folder.command(&["unwrap", input, "-o", "out.obj", "--quiet"]).spawn().unwrap();
+    for child in [run("a.obj"), run("b.obj"), run("a.obj"), run("b.obj")] {
+        assert!(child.wait_with_output().unwrap().status.success());
+    }
+    for name in ["a", "b"] {
+        folder.qparam(&["unwrap", &format!("{name}.obj"), "-o", &format!("{name}_uv.obj")]).code(0);
+    }
+    let found = folder.read("out.obj");
+    assert!(found == folder.read("a_uv.obj") || found == folder.read("b_uv.obj"));
+    assert_eq!(folder.names(), ["a.obj", "a_uv.obj", "b.obj", "b_uv.obj", "out.obj"]);
+}
+
+/// Whatever asks the process to end, and whenever: no temporary file stays.
+#[cfg(unix)]
+#[test]
+fn signals_leave_nothing_behind() {
+    for signal in ["-INT", "-TERM", "-HUP"] {
+        let folder = Folder::new();
+        folder.write("in.obj", hill(150));
+        for milliseconds in [0, 200, 500, 900] {
+            let mut child =
+                folder.command(&["unwrap", "in.obj", "--method", "uniform", "--quiet"]).spawn().unwrap();
+            std::thread::sleep(std::time::Duration::from_millis(milliseconds));
+            let id = child.id().to_string();
+            // It may have ended already.
+            let _ = std::process::Command::new("kill")
+                .args([signal, &id])
+                .stderr(std::process::Stdio::null())
+                .status();
+            let done = child.wait().unwrap().code() == Some(0);
+            let names = folder.names();
+            // Between the last look and the end the file is there already: whole.
+            if names == ["in.obj", "in_uv.obj"] {
+                let output = folder.read("in_uv.obj");
+                assert_eq!(
+                    output.lines().filter(|line| line.starts_with("f ")).count(),
+                    150 * 150,
+                    "{signal}"
+                );
+            } else {
+                assert!(names == ["in.obj"] && !done, "{signal} after {milliseconds} ms: {names:?}");
+            }
+            let _ = std::fs::remove_file(folder.path("in_uv.obj"));
+        }
+    }
+}

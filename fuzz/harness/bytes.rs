@@ -1,31 +1,31 @@
 //! Bytes as a source of choices. When they are used up, every choice is the first.
 
 /// Hands out one choice after the other.
-pub struct Bytes<'a>(pub &'a [u8]);
+pub(crate) struct Bytes<'a>(pub(crate) &'a [u8]);
 
 impl Bytes<'_> {
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    pub fn byte(&mut self) -> u8 {
+    pub(crate) fn byte(&mut self) -> u8 {
         let Some((&first, rest)) = self.0.split_first() else { return 0 };
         self.0 = rest;
         first
     }
 
     /// A number below `count`.
-    pub fn below(&mut self, count: usize) -> usize {
+    pub(crate) fn below(&mut self, count: usize) -> usize {
         usize::from(self.byte()) % count.max(1)
     }
 
     /// One of `choices`.
-    pub fn one<T: Copy>(&mut self, choices: &[T]) -> T {
+    pub(crate) fn one<T: Copy>(&mut self, choices: &[T]) -> T {
         choices[self.below(choices.len())]
     }
 
     /// A coordinate: mostly a small multiple of 1/8, rarely something that is hard on floating-point numbers.
-    pub fn coordinate(&mut self) -> f64 {
+    pub(crate) fn coordinate(&mut self) -> f64 {
         const HARD: [f64; 16] = [
             0.0,
             -0.0,

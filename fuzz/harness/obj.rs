@@ -3,7 +3,7 @@
 use qparam_cli::qmesh::Vec2;
 use qparam_cli::qmesh::obj::{EXCERPT_LIMIT, ObjDocument, ObjError};
 
-pub fn run(data: &[u8]) {
+pub(crate) fn run(data: &[u8]) {
     let document = match ObjDocument::parse(data.to_vec()) {
         Ok(document) => document,
         Err(error) => return check_message(data, &error),

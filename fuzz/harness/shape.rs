@@ -4,16 +4,16 @@ use super::bytes::Bytes;
 
 /// Faces as lists of vertices, from 0.
 #[derive(Clone, Debug, Default)]
-pub struct Shape {
-    pub positions: Vec<[f64; 3]>,
-    pub faces: Vec<Vec<usize>>,
+pub(crate) struct Shape {
+    pub(crate) positions: Vec<[f64; 3]>,
+    pub(crate) faces: Vec<Vec<usize>>,
 }
 
 /// More faces than this are not made: the point is kinds, not sizes.
 const MOST_FACES: usize = 60;
 
 impl Shape {
-    pub fn new(bytes: &mut Bytes<'_>) -> Self {
+    pub(crate) fn new(bytes: &mut Bytes<'_>) -> Self {
         let mut shape = Self::default();
         for place in 0..1 + bytes.below(8).saturating_sub(5) {
             let mut part = match bytes.below(8) {
@@ -86,7 +86,7 @@ impl Shape {
     }
 
     /// As an OBJ file.
-    pub fn text(&self, group_every: usize) -> String {
+    pub(crate) fn text(&self, group_every: usize) -> String {
         let mut text = String::new();
         for [x, y, z] in &self.positions {
             text += &format!("v {x:e} {y:e} {z:e}\n");
@@ -159,7 +159,7 @@ fn fan(bytes: &mut Bytes<'_>) -> Shape {
     };
     let mut positions = vec![[0.0, 0.0, f64::from(bytes.byte()) / 32.0]];
     positions.extend((0..count).flat_map(|i| [rim(2 * i, 1.0), rim(2 * i + 1, 1.5)]));
-    let is_quads = bytes.byte() % 2 == 0;
+    let is_quads = bytes.byte().is_multiple_of(2);
     let corner = |i: usize| 1 + 2 * (i % count);
     let faces = (0..used).map(|i| {
         if is_quads {

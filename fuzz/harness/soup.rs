@@ -7,9 +7,10 @@ use qparam_cli::qmesh::{Chart, HalfedgeId, Id, PolygonView, Polygons, QuadMesh, 
 
 use super::bytes::Bytes;
 
-pub fn run(data: &[u8]) {
+pub(crate) fn run(data: &[u8]) {
     let mut bytes = Bytes(data);
-    let (polygons, seams) = if bytes.byte() % 4 == 0 { arrays(&mut bytes) } else { lists(&mut bytes) };
+    let (polygons, seams) =
+        if bytes.byte().is_multiple_of(4) { arrays(&mut bytes) } else { lists(&mut bytes) };
     if let Ok(mesh) = QuadMesh::build(polygons.clone()) {
         check_mesh(&mesh);
     }

@@ -9,13 +9,13 @@ use super::bytes::Bytes;
 use super::exact;
 use super::shape::Shape;
 
-pub fn run(data: &[u8]) {
+pub(crate) fn run(data: &[u8]) {
     let (text, options) = case(data);
     unwrap(&text, &options);
 }
 
 /// The mesh and the options that bytes stand for.
-pub fn case(data: &[u8]) -> (String, Vec<String>) {
+pub(crate) fn case(data: &[u8]) -> (String, Vec<String>) {
     let mut bytes = Bytes(data);
     let options = options(&mut bytes);
     let text = Shape::new(&mut bytes).text([0, 0, 1, 3][options.len() % 4]);
@@ -23,7 +23,7 @@ pub fn case(data: &[u8]) -> (String, Vec<String>) {
 }
 
 /// Unwraps `text` and checks what comes back.
-pub fn unwrap(text: &str, options: &[String]) {
+pub(crate) fn unwrap(text: &str, options: &[String]) {
     let mut arguments = vec!["unwrap".to_owned(), "-".to_owned()];
     arguments.extend(options.iter().cloned());
     let unwrapped = qparam(&arguments, text);

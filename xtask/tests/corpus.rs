@@ -1,6 +1,7 @@
 //! What the fuzzer found worth keeping, run through the same checks without it.
 
 #![allow(clippy::unwrap_used, reason = "a failing unwrap fails the test")]
+#![allow(clippy::print_stdout, reason = "the name of the file is shown when the test fails")]
 
 #[path = "../../fuzz/harness/mod.rs"]
 mod harness;

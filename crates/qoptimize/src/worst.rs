@@ -1,5 +1,7 @@
 //! Which faces came out worst, and what forced them.
 
+use std::collections::HashSet;
+
 use qembed::qcurv::corner_angle;
 use qembed::qmesh::{CornerData, FaceId, Id, QuadMesh, Vec2, Vec3, VertexId};
 
@@ -199,12 +201,13 @@ fn bend(mesh: &QuadMesh, face: FaceId) -> f64 {
 /// The vertices of a face and those within [`REACH`] edges, near ones first.
 fn within_reach(mesh: &QuadMesh, face: FaceId) -> Vec<VertexId> {
     let mut found: Vec<VertexId> = mesh.face_vertices(face).collect();
+    let mut known: HashSet<VertexId> = found.iter().copied().collect();
     let mut from = 0;
     for _ in 0..REACH {
         let to = found.len();
         for k in from..to {
             for neighbor in mesh.neighbors(found[k]) {
-                if !found.contains(&neighbor) {
+                if known.insert(neighbor) {
                     found.push(neighbor);
                 }
             }

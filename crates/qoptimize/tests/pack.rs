@@ -154,7 +154,8 @@ fn extreme_sizes_have_places() {
         let uv = [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]].map(|[x, y]| Vec2::new(x, y));
         (vec![0, 4], uv.to_vec())
     };
-    let cases: [(&str, Vec<(Vec<u32>, Vec<Vec2>)>); 5] = [
+    type Island = (Vec<u32>, Vec<Vec2>);
+    let cases: [(&str, Vec<Island>); 5] = [
         ("squares too large to be squared", vec![rectangle(1e160, 1e160), rectangle(3e159, 1e160)]),
         ("and too small", vec![rectangle(1e-200, 2e-200), rectangle(1e-200, 1e-200)]),
         ("a needle and a square", vec![rectangle(1e-30, 1.0), rectangle(1.0, 1.0)]),

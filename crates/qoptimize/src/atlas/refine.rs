@@ -164,8 +164,7 @@ fn cuts(island: &Solved) -> Vec<Vec<EdgeId>> {
     let cost = SeamCost::new(mesh);
     let rim: Vec<VertexId> = mesh.vertices().filter(|&vertex| mesh.is_boundary(vertex)).collect();
     let inwards = SeamPaths::search(mesh, &cost, &rim, |_| false);
-    let farthest =
-        inwards.reached().map(|(last, _)| mesh.target(last)).filter(|&v| !mesh.is_boundary(v)).last();
+    let farthest = inwards.reached().map(|(last, _)| mesh.target(last)).rfind(|&v| !mesh.is_boundary(v));
     let found = stretch(mesh, &island.uv);
     let mut starts: Vec<VertexId> = Vec::new();
     for vertex in

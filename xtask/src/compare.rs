@@ -67,6 +67,9 @@ struct Arguments {
     /// Go on from the data of an earlier run: draw its table anew, with the given meshes added to it
     #[arg(long, value_name = "FILE.json")]
     from: Option<PathBuf>,
+    /// With --from: run our own methods anew on the given meshes, which are in the data, and keep the rivals' figures
+    #[arg(long, requires = "from")]
+    ours: bool,
     /// Also put the short table into README.md
     #[arg(long)]
     readme: bool,
@@ -135,6 +138,9 @@ fn league(arguments: &Arguments, places: &Places, earlier: Option<League>) -> Re
     let mut versions = vec![ours.version.clone(), interpreter.version.clone()];
     versions.extend(interpreter.packages.iter().filter_map(|package| package.installed.clone().ok()));
     versions.extend(cgal.iter().map(|tool| tool.version.clone()));
+    if arguments.ours {
+        contestants.retain(|contestant| contestant.ours);
+    }
     let mut league = League {
         schema_version: league::SCHEMA_VERSION,
         arguments: told(arguments),
@@ -145,23 +151,37 @@ fn league(arguments: &Arguments, places: &Places, earlier: Option<League>) -> Re
         baseline: ours.baseline.clone(),
         meshes: Vec::new(),
         absent,
+        ours_again: arguments.ours,
     };
     if let Some(earlier) = earlier {
         if earlier.versions != league.versions || earlier.baseline != league.baseline {
             return Err(format!("the earlier run was made with {}", earlier.versions.join(", ")));
         }
-        league.arguments = format!("{} {}", earlier.arguments, names(&arguments.meshes));
+        if arguments.ours {
+            league.arguments = earlier.arguments;
+        } else {
+            league.arguments = format!("{} {}", earlier.arguments, names(&arguments.meshes));
+            league.ours_again = earlier.ours_again;
+        }
         league.meshes = earlier.meshes;
     }
     let race = Race { places, interpreter: &interpreter, runs: arguments.runs, timeout: arguments.timeout };
     for (number, mesh) in meshes.iter().enumerate() {
         let mut table = table(number, mesh, &contestants, &race, &ours)?;
+        let place = league.meshes.iter().position(|earlier| earlier.name == table.name);
+        if let Some(place) = place.filter(|_| arguments.ours) {
+            table.keep_rivals(league.meshes.remove(place));
+            league.meshes.insert(place, table.clone());
+        }
         if arguments.dominance && table.about.not_a_disk.is_none() {
             let mesh = settings::load(mesh)?;
             table.grid = settings::grid(&mesh)?;
             table.dominance = dominance::against_all(&mesh, &table.rows, &table.grid);
         }
-        league.meshes.push(table);
+        match place {
+            Some(place) => league.meshes[place] = table,
+            None => league.meshes.push(table),
+        }
         // A long run that is interrupted keeps what it has.
         save(&league, places, &arguments.output)?;
     }

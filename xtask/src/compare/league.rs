@@ -25,6 +25,9 @@ pub(super) struct League {
     pub(super) meshes: Vec<MeshTable>,
     /// Rivals that are not installed.
     pub(super) absent: Vec<Absent>,
+    /// Whether our methods were run again after the rivals.
+    #[serde(default)]
+    pub(super) ours_again: bool,
 }
 
 /// One mesh.
@@ -110,6 +113,14 @@ pub(super) struct Measures {
 }
 
 impl MeshTable {
+    /// Takes the rivals' rows from an earlier table of the same mesh, and where nothing newer is looked for, what was found then.
+    pub(super) fn keep_rivals(&mut self, earlier: Self) {
+        self.rows.extend(earlier.rows.into_iter().filter(|row| !row.ours));
+        let of_rivals = |text: &String| !text.starts_with("qparam");
+        self.disagreements.extend(earlier.disagreements.into_iter().filter(of_rivals));
+        (self.grid, self.dominance) = (earlier.grid, earlier.dominance);
+    }
+
     /// The file's name without its ending.
     pub(super) fn title(&self) -> String {
         self.name.trim_end_matches(".obj").to_owned()

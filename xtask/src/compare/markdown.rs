@@ -50,7 +50,7 @@ fn header(league: &League) -> String {
         "# League table of UV maps on quad meshes\n\n\
          Written by `cargo xtask compare{}`; do not edit.\n\n\
          - Versions: {}\n\
-         - Runs: {} of each method on each mesh, in alternating order, each in a process of its own, ended after {} s\n\
+         - Runs: {} of each method on each mesh, in alternating order, each in a process of its own, ended after {} s{}\n\
          - In brackets: how many times the figure of `{}` (bold), or how many more where that is 0. Less is better \
          in every column\n\n\
          Every tool gets the same quad mesh, triangulated as its users do it; its UVs are mapped back to the corners of \
@@ -67,6 +67,7 @@ fn header(league: &League) -> String {
         league.versions.join(", "),
         league.runs,
         league.timeout_seconds,
+        if league.ours_again { "; ours were run again later, so times are not of one run" } else { "" },
         league.baseline,
         if league.meshes.iter().all(|mesh| mesh.disagreements.is_empty()) {
             format!("they agree within {TOLERANCE:e}")

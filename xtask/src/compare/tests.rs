@@ -58,6 +58,7 @@ fn league(rows: Vec<Row>) -> League {
         timeout_seconds: 60.0,
         baseline: "qparam-paper".to_owned(),
         meshes: vec![MeshTable { name: "m.obj".to_owned(), about, rows, ..MeshTable::default() }],
+        ours_again: false,
         absent: vec![Absent { tool: "CGAL".to_owned(), why: "no headers\nsecond line".to_owned() }],
     }
 }
@@ -196,6 +197,28 @@ fn dominance_is_counted() {
     league.meshes[0].dominance[1].ratios = [1.021, 0.5, 0.9];
     assert!(markdown::render(&league, None).contains("\nNot matched: b (1.02), whose angles"));
     assert_eq!(line(&text, "| b "), "| b | yes | `--q 0.5 --shape 1` | 0.500 | 1.02 | 1.00 | 1.02 |");
+}
+
+/// Run again are ours alone: the rivals' rows and what was found against them stay.
+#[test]
+fn rivals_are_kept_when_ours_run_again() {
+    let found =
+        Dominance { rival: "a".to_owned(), valid: true, setting: "--q 0.5".to_owned(), ratios: [1.0; 3] };
+    let mut earlier =
+        league(vec![with_errors("qparam-paper", [2.0; 3]), with_errors("libigl-slim", [3.0; 3])]);
+    let mut earlier = earlier.meshes.remove(0);
+    earlier.dominance = vec![found];
+    earlier.disagreements = vec!["qparam-paper: x".to_owned(), "libigl-slim: y".to_owned()];
+    let mut again = league(vec![with_errors("qparam-paper", [1.0; 3])]).meshes.remove(0);
+    again.keep_rivals(earlier);
+    assert_eq!(
+        again.rows.iter().map(|row| row.name.as_str()).collect::<Vec<_>>(),
+        ["qparam-paper", "libigl-slim"]
+    );
+    assert!(
+        matches!(&again.rows[0].outcome, Outcome::Measured(figures) if figures.measures.angle_error == 1.0)
+    );
+    assert_eq!((again.dominance.len(), again.disagreements), (1, vec!["libigl-slim: y".to_owned()]));
 }
 
 /// Without our own result there is nothing to compare with: the rivals' figures stand, the task fails.

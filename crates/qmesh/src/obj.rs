@@ -45,6 +45,9 @@ pub use write::UvWriteSummary;
 use crate::polygons::{PolygonView, Polygons};
 use crate::{Vec2, Vec3};
 
+/// The most corners that a face may have. More are no polygon that anybody drew, and cost more than they are worth.
+pub const FACE_CORNER_LIMIT: usize = 1 << 20;
+
 /// An OBJ file: its bytes, and an index of its polygons.
 ///
 /// Vertices, faces and corners are counted from 0 in file order; corners face after face.

@@ -80,6 +80,15 @@ fn grid(columns: usize, rows: usize) -> String {
     )
 }
 
+/// One face around a circle.
+fn polygon(corners: usize) -> String {
+    let mut text = String::new();
+    for (sin, cos) in (0..corners).map(|i| turn(i, corners)) {
+        text += &format!("v {cos:.9} {sin:.9} 0\n");
+    }
+    text + "f" + &(1..=corners).map(|vertex| format!(" {vertex}")).collect::<String>() + "\n"
+}
+
 fn turn(i: usize, of: usize) -> (f64, f64) {
     (std::f64::consts::TAU * i as f64 / of as f64).sin_cos()
 }
@@ -200,6 +209,13 @@ fn cases() -> Vec<Odd> {
             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 3\nv 2 0 0\nv 2 1 1\nf 1 2 3 4\nf 2 5 6 3\n",
             1,
             "",
+        ),
+        odd("a polygon of 5,000 corners", polygon(5000), 1, ""),
+        odd(
+            "a face that goes round a square 2,000 times",
+            grid(1, 1) + &format!("f{}\n", " 1 2 4 3".repeat(2000)),
+            2,
+            REPEAT,
         ),
         odd("inside out as a whole", turned(&hill(4), |_| true), 1, ""),
         // Several pieces.

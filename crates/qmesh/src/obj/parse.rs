@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use super::FACE_CORNER_LIMIT;
 use super::corner::{Corner, CornerMistake, Corners};
 use super::error::{ObjError, ObjMistakeKind};
 use super::lines::LineRuns;
@@ -138,6 +139,10 @@ impl<'a> Reader<'a> {
             self.check_room("face corners", self.index.corner_vertex.len(), statement)?;
             self.corner(&corner)?;
             count += 1;
+            if count > FACE_CORNER_LIMIT {
+                let (what, limit) = ("corners in one face", FACE_CORNER_LIMIT);
+                return Err(ObjError::TooLarge { what, limit, line: statement.line });
+            }
         }
         if count < 3 {
             let end = corners.position();

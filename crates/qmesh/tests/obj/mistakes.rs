@@ -1,7 +1,7 @@
 //! What people read when a file is no OBJ mesh.
 
 use crate::bad_texts::bad_texts;
-use qmesh::obj::{EXCERPT_LIMIT, ObjDocument, ObjError, ObjMistake};
+use qmesh::obj::{EXCERPT_LIMIT, FACE_CORNER_LIMIT, ObjDocument, ObjError, ObjMistake};
 
 fn error(text: &[u8]) -> ObjError {
     ObjDocument::parse(text.to_vec()).expect_err("a bad text")
@@ -45,4 +45,16 @@ fn a_caret_can_be_drawn() {
         let pointed: String = mistake.source_line.chars().skip(mistake.source_column).take(2).collect();
         assert_eq!(pointed, "x4");
     }
+}
+
+/// A line of ten million corners is no face: it is refused while it is read.
+#[test]
+fn faces_have_a_bounded_number_of_corners() {
+    let face = |corners: usize| format!("{V}f{}\n", " 1 2 3 4".repeat(corners / 4)).into_bytes();
+    assert_eq!(
+        error(&face(10_000_000)).to_string(),
+        "line 5: too large: more than 1048576 corners in one face"
+    );
+    let most = ObjDocument::parse(face(FACE_CORNER_LIMIT)).expect("as many as are allowed");
+    assert_eq!(most.corner_count(), FACE_CORNER_LIMIT);
 }

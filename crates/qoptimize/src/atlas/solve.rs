@@ -135,7 +135,8 @@ pub(super) fn among_others(
 fn convex(chart: &Chart, observer: &dyn Observer) -> Result<CornerData<Vec2>, ParameterizeError> {
     let filled = chart.mesh.filled();
     let mesh = filled.as_ref().unwrap_or(&chart.mesh);
-    let start = find_start(mesh, &Exempt::find(mesh), observer)?;
+    let start = find_start(mesh, &Exempt::find(mesh), observer);
+    let start = start.map_err(|error| error.outside_of_fillings(&chart.mesh, mesh))?;
     Ok(chart.mesh.corner_data(|corner| 0.5 * (start.uv[chart.mesh.vertex(corner)] + Vec2::repeat(1.0))))
 }
 

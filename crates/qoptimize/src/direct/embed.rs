@@ -125,7 +125,8 @@ impl Run<'_> {
         let Some(filled) = self.mesh.filled() else {
             return find_start(self.mesh, &self.exempt, self.observer);
         };
-        let start = find_start(&filled, &Exempt::find(&filled), self.observer)?;
+        let start = find_start(&filled, &Exempt::find(&filled), self.observer);
+        let start = start.map_err(|error| error.outside_of_fillings(self.mesh, &filled))?;
         Ok(self.without_filling(start))
     }
 
@@ -139,7 +140,8 @@ impl Run<'_> {
         let filled = self.mesh.filled().map_or(Cow::Borrowed(self.mesh), Cow::Owned);
         let filled_exempt = Exempt::find(&filled);
         let boundary = HeldBoundary::new(&filled, &filled_exempt, shape)?;
-        let start = find_start_on(&filled, &filled_exempt, &boundary.places, self.observer)?;
+        let start = find_start_on(&filled, &filled_exempt, &boundary.places, self.observer);
+        let start = start.map_err(|error| error.outside_of_fillings(self.mesh, &filled))?;
         let start = self.without_filling(start);
         let rest = boundary.rest(self.mesh, &self.exempt, &filled);
         let first: Vec<Vec2> = start.uv.iter().map(|p| p / rest.unit).collect();

@@ -51,7 +51,7 @@ pub use options::{DirectOptions, DirectReport};
 pub use scaffold::ScaffoldEnd;
 pub use start::{Start, StartMethod, find_start};
 
-use crate::qmesh::{CornerId, Topology};
+use crate::qmesh::{CornerId, QuadMesh, Topology};
 use crate::qsolve::SolveError;
 
 /// Why there is no first map.
@@ -75,6 +75,21 @@ pub enum StartError {
     /// A linear system could not be solved.
     #[error(transparent)]
     Solve(#[from] SolveError),
+}
+
+impl StartError {
+    /// The same about `patch`, of which `filled` is the mesh without holes: what is wrong in a filling is told of a corner at its rim.
+    pub(crate) fn outside_of_fillings(self, patch: &QuadMesh, filled: &QuadMesh) -> Self {
+        match self {
+            Self::Tangled { corner, count } if corner.index() >= patch.corner_count() => {
+                let rim =
+                    filled.face_vertices(filled.face(corner)).find(|v| v.index() < patch.vertex_count());
+                let corner = rim.and_then(|vertex| patch.vertex_corners(vertex).next());
+                Self::Tangled { corner: corner.unwrap_or(CornerId(0)), count }
+            }
+            other => other,
+        }
+    }
 }
 
 /// How the angle term measures θ against φ.

@@ -25,7 +25,7 @@ pub use refine::{Cut, Refinement, RefinementEnd};
 pub use stretch::{StretchMeasure, stretch};
 
 use qembed::qcurv::seams::opening;
-use qembed::qmesh::{Chart, Observer, PolygonView, Polygons, Repairs, Seams, Vec2, charts};
+use qembed::qmesh::{COORDINATE_LIMIT, Chart, Observer, PolygonView, Polygons, Repairs, Seams, Vec2, charts};
 use rayon::prelude::*;
 
 use self::solve::Solved;
@@ -192,6 +192,9 @@ pub fn unwrap_charts(
     };
     tell(observer, "measure", 0.0)?;
     let mut uv = gather(polygons, &solved);
+    if uv.iter().flat_map(|p| p.iter()).any(|x| x.is_finite() && x.abs() > COORDINATE_LIMIT) {
+        return Err(AtlasError::OutOfRange);
+    }
     let turned_faces = measures::turned_faces(&solved);
     let (distortion, certificate) = match &solved[..] {
         // Nobody moved it since it was measured.

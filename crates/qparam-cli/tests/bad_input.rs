@@ -156,3 +156,16 @@ fn a_projected_edge_without_length_is_named() {
         run.stderr
     );
 }
+
+/// A density at which UVs would be beyond what a file may hold is refused: nothing is written that could not be read back.
+#[test]
+fn a_layout_beyond_all_bounds_is_refused() {
+    let square = |x: &str| format!("v {x} 0 0\nv {x} 1e59 0\nv 0 1e59 0\nv 0 0 0\nf -4 -3 -2 -1\n");
+    let text = square("1e59") + &square("-1e59");
+    for (more, exit) in [(&["--density", "1e9"][..], Exit::Computation), (&[], Exit::Done)] {
+        let run = in_process(&[&["unwrap", "-"], more].concat(), text.as_bytes());
+        assert_eq!(run.exit, exit, "{}", run.stderr);
+        assert_eq!(run.stderr.contains("the layout would reach beyond 1e60"), exit == Exit::Computation);
+        assert_eq!(run.stdout.is_empty(), exit == Exit::Computation);
+    }
+}

@@ -114,6 +114,11 @@ pub enum AtlasError {
     /// An option of the map is out of range.
     #[error(transparent)]
     Options(ParameterizeError),
+    /// A UV would lie beyond [`COORDINATE_LIMIT`](qembed::qmesh::COORDINATE_LIMIT).
+    #[error(
+        "the layout would reach beyond 1e60: ask for a smaller density, or have it fitted into the unit square"
+    )]
+    OutOfRange,
     /// Islands that are to be cut further have no vertices yet whose places could be given.
     #[error("further cuts exclude {0}")]
     CutsExclude(&'static str),

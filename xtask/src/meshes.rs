@@ -73,7 +73,8 @@ const SEAMS: &str = "
 Who cuts how much for how little stretch. Lengths in space, as a multiple of the square root of the surface's area; *islands* that hang
 together in the plane. *On its own seams* is the file's seams mapped by `qparam unwrap --seams uv`; *own UVs* are those in the file as
 they are. xatlas gets fans of triangles, Blender (smart UV project, 66°) quads. Stretch and SD are of each island at its own scale, and then the
-mean over islands by area; *faults* are what the certificate finds.
+mean over islands by area; *faults* are what the certificate finds. Others stretch less, where they do, by cutting into dozens of islands with
+several times the seams; `--max-stretch` makes that trade in one island.
 
 | mesh | by | islands | seam edges | seam length | stretch, 99 % | SD | faults |
 |---|---|---:|---:|---:|---:|---:|---|

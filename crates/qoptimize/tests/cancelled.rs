@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use qoptimize::qembed::qmesh::charts::cut;
-use qoptimize::qembed::qmesh::{Polygons, Seams, shapes};
+use qoptimize::qembed::qmesh::{Polygons, QuadMesh, Seams, shapes};
 use qoptimize::{AtlasError, AtlasOptions, Method, Options, atlas};
 
 /// Calls of the observer, counted; the one with number `stop` (from 0) and all later ones ask to stop.
@@ -26,7 +26,7 @@ fn run(
 }
 
 fn meshes() -> Vec<(&'static str, Polygons)> {
-    let of = |mesh: &qoptimize::qembed::qmesh::QuadMesh| {
+    let of = |mesh: &QuadMesh| {
         let view = mesh.view();
         Polygons {
             positions: view.positions.to_vec(),

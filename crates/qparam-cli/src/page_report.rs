@@ -13,9 +13,10 @@ use crate::interrupt::Phase;
 use crate::picture::page::{MapEntry, Page};
 use crate::picture::{
     Canvas, Layout, Lines, Model, Paint, PictureError, Projection, Rgba, Seams, Shot, UpAxis, View, render,
+    uv_area,
 };
 use crate::progress::Watch;
-use crate::render_command::{checks, clay, uv_area};
+use crate::render_command::{checks, clay};
 use crate::streams::Streams;
 use crate::sweep::{Errors, knee};
 use crate::threads;

@@ -41,6 +41,7 @@ mod seams;
 mod sheet;
 pub mod text;
 mod texture;
+mod uv_area;
 
 use thiserror::Error;
 
@@ -57,6 +58,7 @@ pub use render::{Shot, render};
 pub use seams::Seams;
 pub use sheet::sheet;
 pub use texture::{Texture, TextureError};
+pub(crate) use uv_area::uv_area;
 
 /// Why there is no picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]

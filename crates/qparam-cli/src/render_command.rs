@@ -16,7 +16,7 @@ use crate::picture::color::{Linear, category, oklch};
 use crate::picture::materials::{Look, MaterialNames, read_library};
 use crate::picture::{
     Canvas, HeatScale, Ink, Legend, Lines, Measure, Model, Paint, PictureError, Projection, Rgba, Seams,
-    Shot, Texture, UpAxis, View, sheet,
+    Shot, Texture, UpAxis, View, sheet, uv_area,
 };
 use crate::picture_args::{PaperArgs, RenderArgs, StyleChoice, UpChoice};
 use crate::streams::Streams;
@@ -245,17 +245,6 @@ fn needs_uv(input: &Input, arguments: &RenderArgs) -> Failure {
         format!("--style wire shows the mesh without UVs; {remedy}")
     });
     failure
-}
-
-/// Total area of the faces in the plane, flipped ones counted like the others; never zero.
-pub(crate) fn uv_area(polygons: PolygonView<'_>, uv: &[Vec2]) -> f64 {
-    let area = |face: usize| {
-        let corners = &uv[polygons.corners(face)];
-        let around = corners.iter().zip(corners.iter().cycle().skip(1));
-        let origin = corners.first().copied().unwrap_or_default();
-        (around.map(|(a, b)| (a - origin).perp(&(b - origin))).sum::<f64>() / 2.0).abs()
-    };
-    (0..polygons.face_count()).map(area).sum::<f64>().max(f64::MIN_POSITIVE)
 }
 
 /// Images and colours of the materials; what cannot be had is said and shown in clay.

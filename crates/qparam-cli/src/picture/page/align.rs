@@ -2,12 +2,14 @@
 
 use qoptimize::qmesh::{PolygonView, Vec2};
 
+use crate::picture::uv_area;
+
 /// Turns the first map so that what is high in space (y) is high in the plane, as far as there is such a direction. Scales
 /// every other map so that it has the area of the first, and moves and turns it (without mirroring) to where it differs
 /// least from the first, corners weighted alike.
 pub(super) fn align(polygons: PolygonView<'_>, maps: &mut [Vec<Vec2>]) {
     let Some((first, others)) = maps.split_first_mut() else { return };
-    let area = area(polygons, first);
+    let area = uv_area(polygons, first);
     center(first);
     let heights = polygons.corner_vertex.iter().map(|&vertex| polygons.positions[vertex as usize].y);
     let upwards: Vec2 = first.iter().zip(heights).map(|(uv, height)| uv * height).sum();
@@ -15,7 +17,7 @@ pub(super) fn align(polygons: PolygonView<'_>, maps: &mut [Vec<Vec2>]) {
     turn(first, Vec2::new(upwards.y, upwards.x).try_normalize(0.0).unwrap_or(Vec2::x()), 1.0);
     for map in others {
         center(map);
-        let scale = (area / self::area(polygons, map)).sqrt();
+        let scale = (area / uv_area(polygons, map)).sqrt();
         // The best turn is the direction of Σ first · conjugate(map), as complex numbers.
         let best: Vec2 = first.iter().zip(&*map).map(|(a, b)| Vec2::new(a.dot(b), b.perp(a))).sum();
         turn(map, best.try_normalize(0.0).unwrap_or(Vec2::x()), scale);
@@ -32,17 +34,6 @@ fn turn(map: &mut [Vec2], by: Vec2, scale: f64) {
 fn center(map: &mut [Vec2]) {
     let middle = map.iter().sum::<Vec2>() / map.len().max(1) as f64;
     map.iter_mut().for_each(|uv| *uv -= middle);
-}
-
-/// Total unsigned area, never zero.
-pub(super) fn area(polygons: PolygonView<'_>, uv: &[Vec2]) -> f64 {
-    let area = |face: usize| {
-        let corners = &uv[polygons.corners(face)];
-        let around = corners.iter().zip(corners.iter().cycle().skip(1));
-        let origin = corners.first().copied().unwrap_or_default();
-        (around.map(|(a, b)| (a - origin).perp(&(b - origin))).sum::<f64>() / 2.0).abs()
-    };
-    (0..polygons.face_count()).map(area).sum::<f64>().max(f64::MIN_POSITIVE)
 }
 
 #[cfg(test)]

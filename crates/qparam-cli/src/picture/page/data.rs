@@ -62,7 +62,7 @@ pub(super) fn pack(
         edges,
         seams,
         boxes,
-        area: maps.first().map_or(1.0, |map| super::align::area(polygons, map)),
+        area: maps.first().map_or(1.0, |map| crate::picture::uv_area(polygons, map)),
     }
 }
 

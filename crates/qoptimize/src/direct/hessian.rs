@@ -16,6 +16,10 @@ use crate::qsolve::SolveError;
 
 /// Vertices above which systems are iterated on.
 const FACTORED_VERTICES: usize = 6_000;
+/// Vertices of the largest systems that are factorized for a better direction only.
+const FACTORED_AT_MOST: usize = 400_000;
+/// So many systems are factorized before iterations are tried again; after these have failed twice as many, and so on.
+const FIRST_PATIENCE: usize = 2;
 /// Corners that one task takes.
 const CHUNK: usize = 2048;
 
@@ -52,6 +56,11 @@ pub(super) struct Hessian {
     gradients: Vec<Edges>,
     triangles: Vec<Triangle>,
     system: System,
+    /// The factorized system, while another one is in use.
+    spare: Option<Box<Factored>>,
+    is_large: bool,
+    /// Factorized solutions until iterations are tried again, and how often these have failed.
+    patience: [usize; 2],
 }
 
 enum System {
@@ -63,7 +72,8 @@ impl Hessian {
     /// The zero matrix of the corners of `rest`, analysed.
     pub(super) fn new(rest: &Rest) -> Result<Self, SolveError> {
         let layout = Layout::new(&rest.corners, rest.vertex_count);
-        let system = if rest.vertex_count > FACTORED_VERTICES {
+        let is_large = rest.vertex_count > FACTORED_VERTICES;
+        let system = if is_large {
             System::Iterated(Box::new(Iterated::new(&layout)?))
         } else {
             System::Factored(Box::new(Factored::new(&layout)?))
@@ -71,13 +81,43 @@ impl Hessian {
         let vertices = rest.corners.iter().map(|corner| corner.vertices).collect();
         let (gradients, triangles) =
             (vec![[0.0; 4]; rest.corners.len()], vec![[0.0; 10]; rest.corners.len()]);
-        Ok(Self { layout, vertices, gradients, triangles, system })
+        Ok(Self { layout, vertices, gradients, triangles, system, spare: None, is_large, patience: [0, 0] })
     }
 
-    /// Gives the matrix up for one that is factorized; it has to be assembled again.
+    /// Factorizes from here on, for a while where the system is a large one; the matrix has to be assembled again.
     pub(super) fn factorize(&mut self) -> Result<(), SolveError> {
         if !self.is_factored() {
-            self.system = System::Factored(Box::new(Factored::new(&self.layout)?));
+            let factored = match self.spare.take() {
+                Some(factored) => factored,
+                None => Box::new(Factored::new(&self.layout)?),
+            };
+            self.system = System::Factored(factored);
+            self.patience[0] = FIRST_PATIENCE;
+        }
+        Ok(())
+    }
+
+    /// [`Hessian::factorize`] because iterations failed: the more often they do, the longer.
+    pub(super) fn give_up_iterations(&mut self) -> Result<(), SolveError> {
+        self.factorize()?;
+        let [left, failures] = &mut self.patience;
+        *failures += 1;
+        *left = FIRST_PATIENCE << (*failures).min(6);
+        Ok(())
+    }
+
+    /// [`Hessian::factorize`] where that takes seconds and not minutes.
+    pub(super) fn factorize_unless_huge(&mut self) -> Result<(), SolveError> {
+        if self.layout.vertex_count() <= FACTORED_AT_MOST { self.factorize() } else { Ok(()) }
+    }
+
+    /// Goes back to iterations when a large system has been factorized for long enough; to be called before it is assembled.
+    pub(super) fn reconsider(&mut self) -> Result<(), SolveError> {
+        if self.is_large && self.is_factored() && self.patience[0] == 0 {
+            let iterated = System::Iterated(Box::new(Iterated::new(&self.layout)?));
+            if let System::Factored(factored) = std::mem::replace(&mut self.system, iterated) {
+                self.spare = Some(factored);
+            }
         }
         Ok(())
     }
@@ -95,7 +135,7 @@ impl Hessian {
         corners: &[RestCorner],
         shares: impl Fn(&[RestCorner], &mut [Edges], &mut [Triangle]) -> Result<f64, usize> + Sync,
     ) -> Result<(f64, Vec<f64>), usize> {
-        let Self { layout, vertices, gradients, triangles, system } = self;
+        let Self { layout, vertices, gradients, triangles, system, .. } = self;
         let chunks = corners
             .par_chunks(CHUNK)
             .zip(gradients.par_chunks_mut(CHUNK))
@@ -139,7 +179,10 @@ impl Hessian {
         lagged: bool,
     ) -> Result<Solved, DescentError> {
         match &mut self.system {
-            System::Factored(system) => system.solve(gradient),
+            System::Factored(system) => {
+                self.patience[0] = self.patience[0].saturating_sub(1);
+                system.solve(gradient)
+            }
             System::Iterated(system) => system.solve(uv, gradient, accuracy, lagged),
         }
     }

@@ -14,14 +14,17 @@
 //! shear bands while the printed errors still fall: see [`AngleTerm`].
 //!
 //! Gauss–Newton for the two error terms, projected Newton for the third ([`minimize`]); every step is bounded by the first corner
-//! area that would reach zero, so no corner ever flips.
+//! area that would reach zero, so no corner ever flips. Calm steps are conjugate to the one before, which makes up for what
+//! Gauss–Newton leaves out.
 
 mod clear;
+mod conjugate;
 mod constraint;
 mod element;
 mod elliptic;
 mod embed;
 mod energy;
+mod even;
 mod held;
 mod hessian;
 mod isotropic;

@@ -8,6 +8,7 @@ use crate::qmesh::{CornerId, Observer, QuadMesh, Vec2, VertexData};
 use crate::qsolve::SolveError;
 
 use super::Objective;
+use super::conjugate::Memory;
 use super::energy;
 use super::hessian::{Accuracy, Hessian, Solved};
 use super::rest::Rest;
@@ -33,6 +34,12 @@ const DECISIVE: f64 = 4.0;
 /// After a step that was almost whole, and lowered the energy by no more than this, the preconditioner may stay.
 const LAG_STEP: f64 = 0.9;
 const LAG_DECREASE: f64 = 0.01;
+/// What a step tells about the next holds when the energy fell by no more than this fraction, and corners about to collapse did
+/// not cut it shorter than that.
+const CALM: f64 = 0.1;
+const LEAST_CALM_STEP: f64 = 0.5;
+/// After a step this short, cut off by corners about to collapse, an exact direction pays: it bends round more of them.
+const SHORT: f64 = 0.3;
 /// Energies are means of squares: below this there is nothing left that `f64` could tell from zero.
 const ENERGY_FLOOR: f64 = 1e-14;
 
@@ -144,7 +151,9 @@ pub(super) fn descend(
         stop: Stop::MaxSteps,
     };
     let mut lagged = false;
+    let mut memory = Memory::default();
     loop {
+        hessian.reconsider()?;
         let (energy, gradient) =
             energy::derivatives(objective, rest, hessian, uv).map_err(DescentError::InvalidStart)?;
         descent.energy = energy;
@@ -165,24 +174,35 @@ pub(super) fn descend(
             Ok(solved) => solved,
             Err(error) if hessian.is_factored() => return Err(error),
             Err(_) => {
-                hessian.factorize()?;
+                hessian.give_up_iterations()?;
                 continue;
             }
         };
+        let solved_iterations = solved.iterations;
         descent.iterations += solved.iterations;
         let Solved { mut direction, decrement, missing, .. } = solved;
         let decrement = rest.constraint.project(&mut direction, &gradient, decrement);
         if 0.5 * (decrement + missing) <= least {
             return Ok(Descent { stop: Stop::Converged, ..descent });
         }
-        match line_search(rest, uv, objective, &direction, energy, decrement) {
+        let joint = memory.conjugate(&mut direction, &gradient, decrement);
+        match line_search(rest, uv, objective, &direction, energy, joint) {
             Some(moved) => {
                 let fell = (energy - moved.energy) / energy;
                 lagged = moved.step >= LAG_STEP && fell <= LAG_DECREASE;
+                if fell <= CALM && moved.step >= LEAST_CALM_STEP {
+                    memory.remember(gradient, direction, decrement);
+                } else {
+                    memory.forget();
+                }
+                if moved.step < SHORT && solved_iterations > 0 {
+                    hessian.factorize_unless_huge()?;
+                }
             }
-            // A direction from an old preconditioner may be a poor one.
-            None if lagged => {
+            // A direction from an old preconditioner or an old direction may be a poor one.
+            None if lagged || !memory.is_empty() => {
                 lagged = false;
+                memory.forget();
                 continue;
             }
             None => return Ok(Descent { stop: Stop::Stalled, ..descent }),

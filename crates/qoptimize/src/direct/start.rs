@@ -8,12 +8,15 @@
 //! 2. *torsion weights*: ρ solves `L ρ = 1` with ρ = 0 on the boundary, so it is about constant around a limb and falls along it;
 //!    edges around are weakened against edges along until the radius falls by less than four over the whole limb, however long;
 //! 3. the untangler of [Garanzha et al. 2021, "Foldover-free maps in 50 lines of code"], from the collapsed map.
+//!
+//! A map that crowds much surface into little room is spread then ([`super::even`]).
 
 use qmesh::observe::Observer;
 use qmesh::{EdgeData, QuadMesh, Vec2, Vec3, VertexData};
 use robust::{Coord, orient2d};
 
 use super::StartError;
+use super::even::evened;
 use super::rest::Rest;
 use super::untangle::untangle;
 use crate::convexity::Exempt;
@@ -68,34 +71,55 @@ pub(super) fn find_start_on(
 ) -> Result<Start, StartError> {
     let rest = Rest::new(mesh, exempt);
     let star = star_weights(mesh);
-    let mut best: Option<Start> = None;
-    let mut consider = |uv: VertexData<Vec2>, method: StartMethod| {
+    let mut best: Option<Weighted> = None;
+    let mut consider = |uv: VertexData<Vec2>, method: StartMethod, weights: &EdgeData<f64>| {
         if let Some(smallest_corner) = judge(&rest, &uv).valid()
-            && best.as_ref().is_none_or(|best| best.smallest_corner < smallest_corner)
+            && best.as_ref().is_none_or(|best| best.start.smallest_corner < smallest_corner)
         {
-            best = Some(Start { uv, method, smallest_corner });
+            best = Some(Weighted { start: Start { uv, method, smallest_corner }, weights: weights.clone() });
         }
-        best.as_ref().is_some_and(|best| best.smallest_corner > THIN)
+        best.as_ref().is_some_and(|best| best.start.smallest_corner > THIN)
     };
-    if consider(tutte(mesh, boundary, &star)?, StartMethod::Tutte) {
-        return best.ok_or(StartError::Cancelled);
-    }
-    let torsion = Torsion::new(mesh)?;
-    for exponent in EXPONENTS {
-        if let Ok(uv) = tutte(mesh, boundary, &torsion.weights(mesh, &star, exponent))
-            && consider(uv, StartMethod::Torsion)
-        {
-            break;
+    if !consider(tutte(mesh, boundary, &star)?, StartMethod::Tutte, &star) {
+        let torsion = Torsion::new(mesh)?;
+        for exponent in EXPONENTS {
+            let weights = torsion.weights(mesh, &star, exponent);
+            if let Ok(uv) = tutte(mesh, boundary, &weights)
+                && consider(uv, StartMethod::Torsion, &weights)
+            {
+                break;
+            }
         }
     }
-    if let Some(found) = best.take_if(|best| best.smallest_corner > least_of_its_own(exempt)) {
-        return Ok(found);
+    if let Some(found) = best.take_if(|best| best.start.smallest_corner > least_of_its_own(exempt)) {
+        return Ok(found.evened(mesh, boundary, &rest));
     }
-    match (untangled(mesh, boundary, &rest, observer), best) {
+    match (untangled(mesh, boundary, &rest, observer), best.map(|best| best.start)) {
         (Err(StartError::Cancelled), _) => Err(StartError::Cancelled),
         (Ok(start), Some(best)) if start.smallest_corner < best.smallest_corner => Ok(best),
         (Err(_), Some(best)) => Ok(best),
         (start, _) => start,
+    }
+}
+
+/// A start, and the weights that it solves Tutte's system with.
+struct Weighted {
+    start: Start,
+    weights: EdgeData<f64>,
+}
+
+impl Weighted {
+    fn evened(self, mesh: &QuadMesh, boundary: &[(qmesh::VertexId, Vec2)], rest: &Rest) -> Start {
+        let Self { mut start, mut weights } = self;
+        let valid = |weights: &EdgeData<f64>| {
+            let uv = tutte(mesh, boundary, weights).ok()?;
+            judge(rest, &uv).valid().map(|_| uv.into_vec())
+        };
+        if let Some(uv) = evened(mesh, rest, &mut weights, &start.uv, valid) {
+            start.uv = VertexData::from_vec(uv);
+            start.smallest_corner = judge(rest, &start.uv).valid().unwrap_or(start.smallest_corner);
+        }
+        start
     }
 }
 

@@ -15,6 +15,9 @@ const POWER_STEPS: [usize; 2] = [12, 2];
 /// The power iteration approaches the eigenvalue from below.
 const POWER_MARGIN: f64 = 1.05;
 
+/// What a diagonal block that is singular but for rounding gets added, relative to its trace: a smoother may be a little lazy.
+const SINGULAR_SHIFTS: [f64; 3] = [0.0, 1e-11, 1e-8];
+
 #[derive(Clone, Debug)]
 pub(super) struct Smoother<const F: usize> {
     /// Rows of a chunk.
@@ -49,7 +52,12 @@ impl<const F: usize> Smoother<F> {
                 let excess = self.excess_of(matrix, row);
                 let mut diagonal = matrix.diagonal(row);
                 (0..F).for_each(|k| diagonal[k][k] += excess);
-                inverse(&diagonal).map(|inverse| (inverse, excess))
+                let trace: f64 = (0..F).map(|k| diagonal[k][k]).sum();
+                SINGULAR_SHIFTS.iter().find_map(|shift| {
+                    let mut shifted = diagonal;
+                    (0..F).for_each(|k| shifted[k][k] += shift * trace);
+                    inverse(&shifted).map(|inverse| (inverse, excess + shift * trace))
+                })
             })
             .collect();
         self.inverse.clear();

@@ -50,13 +50,13 @@ pub use atlas::{Atlas, AtlasError, AtlasOptions, Density, Island, UpAxis};
 pub use certificate::{Certificate, Violation, ViolationKind, certify};
 pub use convexity::Exempt;
 pub use direct::{
-    AngleTerm, BoundaryRepair, Descent, DirectOptions, DirectReport, ScaffoldEnd, StartMethod, Stop,
-    SymmetryReport,
+    AngleTerm, BoundaryRepair, Continuation, Descent, DirectOptions, DirectReport, ScaffoldEnd, StartMethod,
+    Stop, SymmetryReport,
 };
 pub use distortion::{Benchmark, Distortion, FaceMeasures, MeasureError, measure, measure_faces};
 pub use error::ParameterizeError;
 pub use overlap::{MoveOrder, OverlapOptions, OverlapReport, remove_overlaps};
-pub use parameterize::{Method, Options, Parameterization, RunRecord, parameterize};
+pub use parameterize::{Method, Options, Parameterization, RunRecord, parameterize, parameterize_from};
 pub use preset::Preset;
 pub use qembed::{self, qcurv, qmesh, qsimplify, qsolve};
 pub use rounding::{Rounding, round_to_single};

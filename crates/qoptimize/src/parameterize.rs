@@ -13,7 +13,7 @@ use qembed::{
 };
 
 use crate::certificate::{Certificate, certify};
-use crate::direct::{self, DirectOptions, DirectReport, Objective, Wishes};
+use crate::direct::{self, Continuation, DirectOptions, DirectReport, Objective, Wishes};
 use crate::distortion::{Distortion, measure};
 use crate::error::ParameterizeError;
 use crate::overlap::{OverlapOptions, OverlapReport, remove_overlaps};
@@ -173,12 +173,29 @@ pub fn parameterize(
     options: &Options,
     observer: &dyn Observer,
 ) -> Result<Parameterization, ParameterizeError> {
+    parameterize_from(&mut Continuation::default(), mesh, options, observer)
+}
+
+/// The same for several settings, one after the other: [`Method::Direct`] and [`Method::Conformal`] with a free boundary start each
+/// map from the one before, which makes a sweep over q a fraction of as many single maps. A map may differ from that of
+/// [`parameterize`] within the tolerance of its descent, or lie in another valley.
+///
+/// `mesh` is to be the same in all calls with one `continuation`.
+///
+/// # Errors
+/// As [`parameterize`].
+pub fn parameterize_from(
+    continuation: &mut Continuation,
+    mesh: &QuadMesh,
+    options: &Options,
+    observer: &dyn Observer,
+) -> Result<Parameterization, ParameterizeError> {
     options.check()?;
     check_patch(mesh)?;
     let unit_mesh = in_own_unit(mesh, options.mixing);
     let (uv, mut record) = match options.method {
         Method::Paper => paper(&unit_mesh, options, observer)?,
-        Method::Direct | Method::Conformal => direct(&unit_mesh, options, observer)?,
+        Method::Direct | Method::Conformal => direct(continuation, &unit_mesh, options, observer)?,
         Method::Uniform => classic(&unit_mesh, Classic::Uniform, options, observer)?,
         Method::MeanValue => classic(&unit_mesh, Classic::MeanValue, options, observer)?,
         Method::Harmonic => classic(&unit_mesh, Classic::Harmonic, options, observer)?,
@@ -282,7 +299,12 @@ fn paper(patch: &QuadMesh, options: &Options, observer: &dyn Observer) -> Result
 }
 
 /// A start, and the descent from it.
-fn direct(mesh: &QuadMesh, options: &Options, observer: &dyn Observer) -> Result<Placed, ParameterizeError> {
+fn direct(
+    continuation: &mut Continuation,
+    mesh: &QuadMesh,
+    options: &Options,
+    observer: &dyn Observer,
+) -> Result<Placed, ParameterizeError> {
     let objective = match options.method {
         Method::Conformal => Objective::Conformal { q: options.q },
         _ => Objective::Direct {
@@ -292,7 +314,8 @@ fn direct(mesh: &QuadMesh, options: &Options, observer: &dyn Observer) -> Result
         },
     };
     let wishes = Wishes { boundary: &options.boundary, pins: &options.pins, symmetric: options.symmetric };
-    let (mut uv, report) = direct::embed(mesh, &objective, &wishes, &options.direct.descent, observer)?;
+    let (mut uv, report) =
+        direct::embed_from(continuation, mesh, &objective, &wishes, &options.direct.descent, observer)?;
     let exact = mesh.to_corners(&uv);
     normalize(&mut uv, options);
     if let [(vertex, place)] = options.pins[..] {

@@ -21,7 +21,7 @@ pub use features::{Change, Features, Smallest, Trend};
 pub use knee::{Knee, NoKnee, knee};
 
 use qoptimize::qmesh::{Observer, QuadMesh};
-use qoptimize::{Distortion, Options, Parameterization, ParameterizeError, parameterize};
+use qoptimize::{Continuation, Distortion, Options, Parameterization, ParameterizeError, parameterize_from};
 use serde::Serialize;
 
 use crate::report::is_valid;
@@ -111,8 +111,9 @@ pub fn sweep(
     observer: &dyn Observer,
 ) -> Result<Sweep, ParameterizeError> {
     let mut columns = Vec::with_capacity(q.len());
+    let mut continuation = Continuation::default();
     for &q in q {
-        let outcome = parameterize(mesh, &Options { q, ..options.clone() }, observer)
+        let outcome = parameterize_from(&mut continuation, mesh, &Options { q, ..options.clone() }, observer)
             .map(|Parameterization { distortion, .. }| distortion);
         if outcome == Err(ParameterizeError::Cancelled) {
             return Err(ParameterizeError::Cancelled);

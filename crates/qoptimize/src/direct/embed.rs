@@ -9,6 +9,7 @@ use crate::qembed::BoundaryShape;
 use crate::qmesh::{Observer, QuadMesh, Vec2, VertexData, VertexId};
 
 use super::clear::FreeProblem;
+use super::continuation::Continuation;
 use super::elliptic::corners_beyond;
 use super::held::HeldBoundary;
 use super::hessian::Hessian;
@@ -16,9 +17,8 @@ use super::mirrored;
 use super::newton::descend;
 use super::pull::{self, Pin, Pull};
 use super::rest::{Rest, unit_length};
-use super::scale::to_best_scale;
 use super::start::find_start_on;
-use super::{Descent, DescentOptions, DirectReport, Objective, Start, StartError, find_start, minimize};
+use super::{Descent, DescentOptions, DirectReport, Objective, Start, StartError, find_start};
 
 /// What a map has to heed besides its energy.
 #[derive(Clone, Copy, Debug)]
@@ -57,6 +57,24 @@ pub fn embed(
     options: &DescentOptions,
     observer: &dyn Observer,
 ) -> Result<(VertexData<Vec2>, DirectReport), ParameterizeError> {
+    embed_from(&mut Continuation::default(), mesh, objective, wishes, options, observer)
+}
+
+/// The same for several objectives, one after the other: with a free boundary and no symmetry asked for, each map starts from the
+/// one before. Neighbouring maps then lie in the same valley, and cost a fraction of the first.
+///
+/// `mesh` is to be the same in all calls with one `continuation`.
+///
+/// # Errors
+/// As [`embed`].
+pub fn embed_from(
+    continuation: &mut Continuation,
+    mesh: &QuadMesh,
+    objective: &Objective,
+    wishes: &Wishes<'_>,
+    options: &DescentOptions,
+    observer: &dyn Observer,
+) -> Result<(VertexData<Vec2>, DirectReport), ParameterizeError> {
     pull::check(mesh, wishes.pins)?;
     let is_free = matches!(wishes.boundary, BoundaryShape::Auto | BoundaryShape::Free);
     if wishes.symmetric && !(is_free && wishes.pins.is_empty()) {
@@ -70,7 +88,7 @@ pub fn embed(
             run.mesh = even;
             run.mirrored(mirror)?
         }
-        (None, _) if is_free => run.free(objective)?,
+        (None, _) if is_free => continuation.free(&run)?,
         (None, shape) => run.held(shape)?,
     };
     match wishes.pins {
@@ -101,25 +119,11 @@ pub(super) struct Run<'a> {
     pub(super) exempt: Exempt,
     /// Clamped.
     pub(super) objective: &'a Objective,
-    options: &'a DescentOptions,
+    pub(super) options: &'a DescentOptions,
     pub(super) observer: &'a dyn Observer,
 }
 
 impl Run<'_> {
-    fn free(&self, objective: &Objective) -> Result<(Map, DirectReport), ParameterizeError> {
-        let start = self.start()?;
-        let rest = Rest::new(self.mesh, &self.exempt);
-        let mut uv = start.uv.clone();
-        let descent = minimize(self.mesh, &mut uv, &self.exempt, objective, self.options, self.observer)?;
-        let in_units = |uv: &VertexData<Vec2>| uv.iter().map(|p| p / rest.unit).collect::<Vec<_>>();
-        let mut report = self.report(&start, descent);
-        // The unit is a power of two, so dividing by it rounds nothing.
-        let (mut first, mut uv) = (in_units(&start.uv), in_units(&uv));
-        to_best_scale(&rest, self.objective, &mut first);
-        report.boundary_repair = self.problem(&rest).clear(&first, &mut uv, &mut report.descent)?;
-        Ok((Map { uv, rest }, report))
-    }
-
     /// A first map. Holes are filled for this time only.
     pub(super) fn start(&self) -> Result<Start, StartError> {
         let Some(filled) = self.mesh.filled() else {

@@ -20,6 +20,7 @@
 mod clear;
 mod conjugate;
 mod constraint;
+mod continuation;
 mod element;
 mod elliptic;
 mod embed;
@@ -47,7 +48,8 @@ mod untangle;
 mod tests;
 
 pub use clear::BoundaryRepair;
-pub use embed::{Wishes, embed};
+pub use continuation::Continuation;
+pub use embed::{Wishes, embed, embed_from};
 pub use mirrored::SymmetryReport;
 pub use newton::{Descent, DescentError, DescentOptions, Stop, minimize};
 pub use options::{DirectOptions, DirectReport};

@@ -1,6 +1,7 @@
 //! What the energy promises.
 
 mod clear;
+mod continuation;
 mod derivatives;
 mod ellipticity;
 mod existence;

@@ -1,0 +1,86 @@
+//! From one map to the next of the same surface: what does not depend on the dials is kept, and each descent starts where the last
+//! one ended.
+
+use crate::ParameterizeError;
+use crate::plane::outline_flaws;
+use crate::qmesh::Vec2;
+
+use super::embed::{Map, Run};
+use super::hessian::Hessian;
+use super::newton::descend;
+use super::rest::Rest;
+use super::scale::to_best_scale;
+use super::{DescentError, DirectReport, Start};
+
+/// What maps of one surface with a free boundary hand on to each other: see [`embed_from`](super::embed_from).
+#[derive(Default)]
+pub struct Continuation(Option<Kept>);
+
+struct Kept {
+    start: Start,
+    rest: Rest,
+    hessian: Hessian,
+    /// The start at true scale, in units of `rest`.
+    first: Vec<Vec2>,
+    /// The last map of least energy, whether its boundary was clear of itself or not.
+    last: Option<Vec<Vec2>>,
+    /// The last map whose boundary had to be cleared.
+    cleared: Option<Vec<Vec2>>,
+}
+
+impl std::fmt::Debug for Continuation {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Continuation").field("is_warm", &self.is_warm()).finish()
+    }
+}
+
+impl Continuation {
+    /// Whether there is a map to start from.
+    #[must_use]
+    pub fn is_warm(&self) -> bool {
+        self.0.as_ref().is_some_and(|kept| kept.last.is_some())
+    }
+
+    /// The free map of least energy, from the last one if there is one.
+    pub(super) fn free(&mut self, run: &Run<'_>) -> Result<(Map, DirectReport), ParameterizeError> {
+        let kept = match self.0.take().filter(|kept| kept.belongs_to(run)) {
+            Some(kept) => self.0.insert(kept),
+            None => self.0.insert(Kept::new(run)?),
+        };
+        let mut uv = kept.last.clone().unwrap_or_else(|| kept.first.clone());
+        to_best_scale(&kept.rest, run.objective, &mut uv);
+        // From inside the pool, where short parallel loops do not have to wake it first.
+        let descent = rayon::scope(|_| {
+            descend(&kept.rest, &mut kept.hessian, &mut uv, run.objective, run.options, run.observer)
+        })?;
+        kept.last = Some(uv.clone());
+        let mut report = run.report(&kept.start, descent);
+        let mut clear = kept
+            .cleared
+            .clone()
+            .filter(|cleared| outline_flaws(run.mesh, cleared) == 0)
+            .unwrap_or_else(|| kept.first.clone());
+        to_best_scale(&kept.rest, run.objective, &mut clear);
+        report.boundary_repair = run.problem(&kept.rest).clear(&clear, &mut uv, &mut report.descent)?;
+        if report.boundary_repair.is_some() {
+            kept.cleared = Some(uv.clone());
+        }
+        Ok((Map { uv, rest: kept.rest.clone() }, report))
+    }
+}
+
+impl Kept {
+    fn new(run: &Run<'_>) -> Result<Self, ParameterizeError> {
+        let start = run.start()?;
+        let rest = Rest::new(run.mesh, &run.exempt);
+        // The unit is a power of two, so dividing by it rounds nothing.
+        let first = start.uv.iter().map(|p| p / rest.unit).collect();
+        let hessian = Hessian::new(&rest).map_err(DescentError::from)?;
+        Ok(Self { start, rest, hessian, first, last: None, cleared: None })
+    }
+
+    /// As far as can be told without comparing all of the surface: the caller promises the rest.
+    fn belongs_to(&self, run: &Run<'_>) -> bool {
+        self.rest.vertex_count == run.mesh.vertex_count() && self.rest.ids.len() <= run.mesh.corner_count()
+    }
+}

@@ -17,6 +17,11 @@ const TASKS: &[(&str, &str, Task)] = &[
         compare::run,
     ),
     (
+        "dial",
+        "certify the disks over q and tabulate what each term does, into docs/tables/dial.md",
+        dial::run,
+    ),
+    (
         "disks",
         "map hostile disks of all kinds, certify each map, check by brute force (--count N, --seed S), into docs/tables/disks.md",
         disks::run,
@@ -53,6 +58,7 @@ const TASKS: &[(&str, &str, Task)] = &[
 mod bench;
 mod chart;
 mod compare;
+mod dial;
 mod disks;
 mod figure;
 mod fixtures;

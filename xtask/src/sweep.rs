@@ -116,9 +116,9 @@ pub(crate) fn best_and_direct(mesh: &QuadMesh) -> Result<[(String, Options); 2],
 }
 
 /// A mesh and its file name without folder and ending.
-struct Mesh {
-    name: String,
-    mesh: QuadMesh,
+pub(crate) struct Mesh {
+    pub(crate) name: String,
+    pub(crate) mesh: QuadMesh,
 }
 
 fn load(path: &Path) -> Result<Mesh, String> {
@@ -131,7 +131,7 @@ fn load(path: &Path) -> Result<Mesh, String> {
 }
 
 /// Every disk in a folder; the face and the head first, as in Table 1, then by name.
-fn disks(folder: &Path) -> Result<Vec<Mesh>, String> {
+pub(crate) fn disks(folder: &Path) -> Result<Vec<Mesh>, String> {
     let entries = std::fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "obj"));

@@ -18,7 +18,7 @@ use super::newton::descend;
 use super::pull::{self, Pin, Pull};
 use super::rest::{Rest, unit_length};
 use super::start::find_start_on;
-use super::{Descent, DescentOptions, DirectReport, Objective, Start, StartError, find_start};
+use super::{Descent, DescentOptions, DirectReport, Objective, Start, StartError, Terms, find_start};
 
 /// What a map has to heed besides its energy.
 #[derive(Clone, Copy, Debug)]
@@ -100,6 +100,7 @@ pub fn embed_from(
         }
         pins => run.pin(&mut map, pins, &mut report)?,
     }
+    report.terms = Terms::of(objective, &map.rest, &map.uv);
     report.elliptic_limit = objective.elliptic_limit();
     report.corners_beyond_elliptic =
         report.elliptic_limit.map_or(0, |limit| corners_beyond(&map.rest, &map.uv, limit));
@@ -215,6 +216,7 @@ impl Run<'_> {
             start_smallest_corner: start.smallest_corner,
             exempt_faces: self.exempt.faces(),
             descent,
+            terms: Terms { angle: 0.0, area: 0.0, shape: 0.0 },
             boundary_repair: None,
             symmetry: None,
             elliptic_limit: None,

@@ -21,6 +21,36 @@ pub(super) fn edges(corner: &RestCorner, uv: &[Vec2]) -> Edges {
     [f1.x, f1.y, f0.x, f0.y]
 }
 
+/// What an energy is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct Terms {
+    /// What q counts: the mean over the corners of `log²(θ/φ)`, or of `(θ/φ − 1)²`; that of MIPS − 1 for the conformal family.
+    pub angle: f64,
+    /// What 1 − q counts: the mean of `½[(r − 1)² + (1/r − 1)²]`, `r = A(T)/A(U)`; that of `(det + 1/det)/2 − 1` for the conformal
+    /// family.
+    pub area: f64,
+    /// What the dial `shape` counts: the mean of the symmetric Dirichlet energy − 1; 0 for the conformal family.
+    pub shape: f64,
+}
+
+impl Terms {
+    pub(super) fn of(objective: &Objective, rest: &Rest, uv: &[Vec2]) -> Self {
+        match *objective {
+            Objective::Direct { angle_term, .. } => {
+                let alone = |q, shape| value(&Objective::Direct { q, shape, angle_term }, rest, uv);
+                let area = alone(0.0, 0.0);
+                Self { angle: alone(1.0, 0.0), area, shape: alone(0.0, 1.0) - area }
+            }
+            Objective::Conformal { .. } => {
+                let alone = |q| value(&Objective::Conformal { q }, rest, uv);
+                Self { angle: alone(1.0), area: alone(0.0), shape: 0.0 }
+            }
+        }
+    }
+}
+
 /// The energy of `uv`; infinite where a corner is not positive.
 pub(super) fn value(objective: &Objective, rest: &Rest, uv: &[Vec2]) -> f64 {
     let sums: Vec<f64> =

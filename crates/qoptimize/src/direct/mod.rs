@@ -50,6 +50,7 @@ mod tests;
 pub use clear::BoundaryRepair;
 pub use continuation::Continuation;
 pub use embed::{Wishes, embed, embed_from};
+pub use energy::Terms;
 pub use mirrored::SymmetryReport;
 pub use newton::{Descent, DescentError, DescentOptions, Stop, minimize};
 pub use options::{DirectOptions, DirectReport};

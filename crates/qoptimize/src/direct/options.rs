@@ -1,7 +1,7 @@
 //! What the caller chooses, and what he is told.
 
 use crate::ParameterizeError;
-use crate::direct::{AngleTerm, BoundaryRepair, Descent, DescentOptions, StartMethod, SymmetryReport};
+use crate::direct::{AngleTerm, BoundaryRepair, Descent, DescentOptions, StartMethod, SymmetryReport, Terms};
 use crate::qmesh::FaceId;
 
 /// What the energy needs besides q, and when the descent ends.
@@ -50,6 +50,8 @@ pub struct DirectReport {
     pub exempt_faces: Vec<FaceId>,
     /// The way down; its end is that of the last attempt.
     pub descent: Descent,
+    /// What the energy is made of in the end.
+    pub terms: Terms,
     /// What it took to keep the boundary clear of itself; `None` where it was so anyway.
     pub boundary_repair: Option<BoundaryRepair>,
     /// The mirror, when a symmetric map was asked for.

@@ -1,6 +1,8 @@
 //! Maps that start from their neighbours: the same minima, for less.
 
-use crate::direct::{AngleTerm, Continuation, DescentOptions, DirectReport, Objective, Wishes, embed, embed_from};
+use crate::direct::{
+    AngleTerm, Continuation, DescentOptions, DirectReport, Objective, Wishes, embed, embed_from,
+};
 use crate::plane::outline_flaws;
 use crate::qmesh::shapes;
 use crate::qmesh::{QuadMesh, Vec2, VertexData};
@@ -14,7 +16,8 @@ fn at(q: f64) -> Objective {
 fn series(mesh: &QuadMesh) -> Vec<(VertexData<Vec2>, DirectReport)> {
     let mut continuation = Continuation::default();
     let map = |q| {
-        embed_from(&mut continuation, mesh, &at(q), &Wishes::default(), &DescentOptions::default(), &()).unwrap()
+        embed_from(&mut continuation, mesh, &at(q), &Wishes::default(), &DescentOptions::default(), &())
+            .unwrap()
     };
     DIALS.into_iter().map(map).collect()
 }

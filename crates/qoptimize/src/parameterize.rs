@@ -63,7 +63,8 @@ impl Method {
 pub struct Options {
     /// Default `Direct`.
     pub method: Method,
-    /// 1 angle-true (conformal), 0 area-true (authalic). Default 0.5.
+    /// 1 angle-true (conformal), 0 area-true (authalic). Default 0.6: on every mesh of the
+    /// league table no worse than the rivals that minimise symmetric Dirichlet, in angles, areas and stretch alike.
     pub q: f64,
     /// Default `Auto`: free for [`Method::Direct`], [`Method::Conformal`] and [`Method::Lscm`], the circle for the others.
     pub boundary: BoundaryShape,
@@ -98,7 +99,7 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             method: Method::default(),
-            q: 0.5,
+            q: 0.6,
             boundary: BoundaryShape::default(),
             pins: Vec::new(),
             symmetric: false,

@@ -12,7 +12,7 @@ use crate::parameterize::{Method, Options};
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Preset {
-    /// The default: no worse than SLIM in angles, areas and symmetric Dirichlet at once (q 0.5, shape 1).
+    /// The default: no worse than SLIM in angles, areas and symmetric Dirichlet at once (q 0.6, shape 1).
     Balanced,
     /// MIPS: angles above all, areas as they come (method conformal, q 1). Polyconvex.
     Conformal,
@@ -49,6 +49,7 @@ impl Preset {
         match self {
             Self::Conformal => 1.0,
             Self::ArapLike => 0.95,
+            Self::Balanced => 0.6,
             _ => 0.5,
         }
     }

@@ -40,7 +40,7 @@ choices! {
         Lscm,
     }
     PresetChoice => Preset {
-        /// The default: angles, areas and stretch alike (q 0.5, shape 1)
+        /// The default: angles, areas and stretch alike (q 0.6, shape 1)
         Balanced,
         /// Angles above all (method conformal, q 1)
         Conformal,

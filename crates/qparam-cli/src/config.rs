@@ -272,7 +272,7 @@ mod tests {
 
     #[test]
     fn the_file_can_be_left_out() {
-        assert_eq!(with_file("q = 0.25", &["--no-config"]).unwrap().q, 0.5);
+        assert_eq!(with_file("q = 0.25", &["--no-config"]).unwrap().q, 0.6);
     }
 
     #[test]

@@ -45,7 +45,7 @@ pub(crate) struct UnwrapArgs {
     pub(crate) report_q: Option<Vec<f64>>,
 
     /// 1 is angle-true (conformal), 0 is area-true (authalic) (Eq. 10)
-    #[arg(long, value_name = "0..1", default_value = "0.5", value_parser = unit, allow_negative_numbers = true, help_heading = "Method")]
+    #[arg(long, value_name = "0..1", default_value = "0.6", value_parser = unit, allow_negative_numbers = true, help_heading = "Method")]
     pub(crate) q: f64,
     #[command(flatten)]
     pub(crate) map: MapArgs,

@@ -31,7 +31,7 @@ fn held_boundaries_arrive_in_the_file() {
     let folder = Folder::new();
     folder.write("in.obj", hill(6));
     let text = folder.qparam(&["unwrap", "in.obj", "--boundary", "square"]).code(0).stdout;
-    assert!(text.contains("method direct, q 0.5, shape 1, boundary square\n"), "{text}");
+    assert!(text.contains("method direct, q 0.6, shape 1, boundary square\n"), "{text}");
     let corners = ["0.0 0.0", "1.0 0.0", "1.0 1.0", "0.0 1.0"];
     let vt = placed(&folder, "in_uv.obj");
     assert!(corners.iter().all(|corner| vt.iter().any(|line| line == corner)), "{vt:?}");

@@ -9,8 +9,8 @@ use qparam_cli::qoptimize::{AngleTerm, Distortion, Exempt, Method, Options, cert
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-const Q: [f64; 7] = [0.9999, 0.99, 0.95, 0.8, 0.5, 0.2, 0.05];
-const SHAPE: [f64; 8] = [10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01, 0.001];
+const Q: [f64; 8] = [0.99999, 0.9999, 0.99, 0.95, 0.8, 0.6, 0.2, 0.05];
+const SHAPE: [f64; 9] = [10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01, 0.001, 0.0001];
 
 /// What `direct` is told.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -74,7 +74,7 @@ pub(super) fn grid(mesh: &QuadMesh) -> Result<Vec<Spot>, String> {
 
 /// The map of least stretch, one place a vertex: where all lines of the grid start.
 fn first(mesh: &QuadMesh) -> Result<VertexData<Vec2>, String> {
-    let options = Setting::new(0.5, SHAPE[0], AngleTerm::Log).as_options();
+    let options = Setting::new(0.6, SHAPE[0], AngleTerm::Log).as_options();
     let map = parameterize(mesh, &options, &()).map_err(|error| error.to_string())?;
     let mut uv = mesh.vertex_data(|_| Vec2::zeros());
     mesh.corners().for_each(|corner| uv[mesh.vertex(corner)] = map.uv[corner]);

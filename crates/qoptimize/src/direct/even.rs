@@ -49,8 +49,7 @@ impl Crowding {
     }
 
     pub(super) fn is_high(&self) -> bool {
-        // Not a number, too.
-        !(self.mean <= CROWDED)
+        self.mean > CROWDED || self.mean.is_nan()
     }
 
     /// Weakens edges where there is little room.
@@ -89,7 +88,7 @@ pub(super) fn evened(
         if gain > 1.0 {
             best = Some(uv);
         }
-        if !(gain > LEAST_GAIN) {
+        if gain < LEAST_GAIN || gain.is_nan() {
             break;
         }
         crowding = next;

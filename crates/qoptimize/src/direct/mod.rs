@@ -133,9 +133,9 @@ pub enum Objective {
 
 impl Objective {
     /// Below this q the angles, above its complement the areas, would be free to degenerate.
-    pub const Q_MARGIN: f64 = 1e-4;
+    pub const Q_MARGIN: f64 = 1e-5;
     /// The least weight of the symmetric Dirichlet term.
-    pub const LEAST_SHAPE: f64 = 1e-3;
+    pub const LEAST_SHAPE: f64 = 1e-4;
 
     /// The same objective with its dials moved into the range in which a minimum exists.
     #[must_use]
@@ -152,6 +152,6 @@ impl Objective {
 
 impl Default for Objective {
     fn default() -> Self {
-        Self::Direct { q: 0.5, shape: 1.0, angle_term: AngleTerm::Log }
+        Self::Direct { q: 0.6, shape: 1.0, angle_term: AngleTerm::Log }
     }
 }

@@ -33,10 +33,10 @@ pub(super) fn interior(mesh: &QuadMesh) -> usize {
     mesh.vertices().filter(|&vertex| !mesh.is_boundary(vertex)).count()
 }
 
-/// The paper's options with this rule and this fraction, without section 2.4.
+/// The paper's options with this rule and this fraction at q = 0.5, without section 2.4.
 pub(super) fn paper(rule: RemovalRule, fraction: f64) -> Options {
     let simplify = SimplifyOptions { rule, threshold: Threshold::Fraction(fraction), ..Default::default() };
-    Options { method: Method::Paper, simplify, overlaps: None, ..Default::default() }
+    Options { method: Method::Paper, q: 0.5, simplify, overlaps: None, ..Default::default() }
 }
 
 pub(super) fn run(mesh: &QuadMesh, options: &Options) -> Result<Parameterization, String> {

@@ -7,7 +7,7 @@ use super::inputs::{errors, models, paper, run};
 use super::table::{Table, digits};
 
 fn contestants() -> Vec<(&'static str, Options)> {
-    let with = |method: Method| Options { method, ..Options::default() };
+    let with = |method: Method| Options { method, q: 0.5, ..Options::default() };
     let q = |q: f64, options: Options| Options { q, ..options };
     let overlaps = |options: Options| Options { overlaps: Some(Default::default()), ..options };
     vec![

@@ -44,6 +44,7 @@ fn a_page_can_be_used() {
     folder
         .qparam(&[
             "unwrap",
+            "--q=0.5",
             "hill.obj",
             "-o",
             "out.obj",

@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use qembed::qcurv::corner_angle;
 use qembed::qmesh::{CornerData, FaceId, Id, QuadMesh, Vec2, Vec3, VertexId};
 
+use crate::direct::rest::{concave_corners, corner_normals};
 use crate::distortion::{FaceMeasures, MeasureError, measure_faces};
 
 /// How far around a face its causes are looked for, in edges.
@@ -140,7 +141,7 @@ pub fn causes(mesh: &QuadMesh, face: FaceId, circumstances: &Circumstances<'_>) 
     if is_degenerate {
         causes.push(Cause::Degenerate);
     } else if mesh.degree(face) == 4 {
-        if crate::direct::rest::concave_corners(mesh, face).contains(&true) {
+        if concave_corners(mesh, face).contains(&true) {
             causes.push(Cause::Concave);
         }
         let degrees = bend(mesh, face);
@@ -187,13 +188,7 @@ fn is_degenerate(mesh: &QuadMesh, face: FaceId) -> bool {
 
 /// The larger of the angles by which a quad is bent along its diagonals, in degrees.
 fn bend(mesh: &QuadMesh, face: FaceId) -> f64 {
-    let normals: Vec<Vec3> = mesh
-        .face_corners(face)
-        .map(|corner| {
-            let [next, previous] = mesh.corner_vectors(corner);
-            next.cross(&previous)
-        })
-        .collect();
+    let normals = corner_normals(mesh, face);
     let between = |a: &Vec3, b: &Vec3| a.cross(b).norm().atan2(a.dot(b)).to_degrees();
     between(&normals[0], &normals[2]).max(between(&normals[1], &normals[3]))
 }

@@ -131,15 +131,19 @@ fn corner_factors(mesh: &QuadMesh, face: FaceId, exempt: &Exempt) -> Vec<f64> {
     }
 }
 
-/// Which corners of `face` are concave in space: against the face's mean normal.
-pub(crate) fn concave_corners(mesh: &QuadMesh, face: FaceId) -> Vec<bool> {
-    let normals: Vec<Vec3> = mesh
-        .face_corners(face)
+/// The normals of the corner triangles of `face`, twice as long as these have area.
+pub(crate) fn corner_normals(mesh: &QuadMesh, face: FaceId) -> Vec<Vec3> {
+    mesh.face_corners(face)
         .map(|corner| {
             let [next, previous] = mesh.corner_vectors(corner);
             next.cross(&previous)
         })
-        .collect();
+        .collect()
+}
+
+/// Which corners of `face` are concave in space: against the face's mean normal.
+pub(crate) fn concave_corners(mesh: &QuadMesh, face: FaceId) -> Vec<bool> {
+    let normals = corner_normals(mesh, face);
     let mean: Vec3 = normals.iter().sum();
     normals.iter().map(|normal| normal.dot(&mean) <= 0.0 && mean.norm_squared() > 0.0).collect()
 }

@@ -70,6 +70,23 @@ pub struct Charts {
 /// What no cut mends: no faces, arrays that contradict each other, faces of fewer than three corners, indices or
 /// coordinates out of range. See [`BuildError`].
 pub fn cut(polygons: PolygonView<'_>, seams: &Seams) -> Result<Charts, BuildError> {
+    match one_piece(polygons, seams) {
+        Some(chart) => Ok(Charts { charts: vec![chart], repairs: Repairs::default() }),
+        None => cut_any(polygons, seams),
+    }
+}
+
+/// The one chart of polygons with nothing to cut and nothing to mend: most meshes are that, and sooner seen than cut.
+fn one_piece(polygons: PolygonView<'_>, seams: &Seams) -> Option<Chart> {
+    // The two faces of a pillow count as one that is doubled.
+    if !seams.is_empty() || polygons.face_count() < 3 {
+        return None;
+    }
+    let mesh = QuadMesh::build(polygons.to_polygons()).ok()?;
+    (mesh.components().1 == 1).then(|| Chart::whole(mesh))
+}
+
+fn cut_any(polygons: PolygonView<'_>, seams: &Seams) -> Result<Charts, BuildError> {
     let mut repairs = Repairs::default();
     let mut alone = Vec::new();
     check_polygons(polygons, |face, _| {
@@ -131,5 +148,42 @@ impl Chart {
     #[must_use]
     pub fn source_corner(&self, corner: CornerId) -> u32 {
         self.corners[corner.index()]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Polygons, shapes};
+
+    /// What is found in one glance is what the long way finds.
+    #[test]
+    fn one_piece_is_what_cutting_leaves_whole() {
+        let with_spare_vertex = |mesh: &QuadMesh| {
+            let mut polygons = mesh.view().to_polygons();
+            polygons.positions.insert(0, polygons.positions[0]);
+            polygons.corner_vertex.iter_mut().for_each(|vertex| *vertex += 1);
+            polygons
+        };
+        let grid = shapes::grid(5, 4);
+        let tetrahedron = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+        let corners = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
+        for polygons in [
+            grid.view().to_polygons(),
+            with_spare_vertex(&grid),
+            Polygons::new(&corners, tetrahedron),
+            Polygons::new(&corners, &tetrahedron[..3]),
+        ] {
+            let seams = Seams::default();
+            let glance = one_piece(polygons.view(), &seams).expect("one piece");
+            let cut = cut_any(polygons.view(), &seams).expect("polygons");
+            assert_eq!(cut, Charts { charts: vec![glance], repairs: Repairs::default() });
+        }
+        let apart = Polygons::new(&corners, [[0, 1, 2], [0, 2, 3], [3, 2, 0]]);
+        assert_eq!(one_piece(apart.view(), &Seams::default()), None);
+        let pillow = Polygons::new(&corners, [[0, 1, 2], [2, 1, 0]]);
+        assert_eq!(one_piece(pillow.view(), &Seams::default()), None);
+        let edge: Seams = [[0, 1]].into_iter().collect();
+        assert_eq!(one_piece(grid.view(), &edge), None);
     }
 }

@@ -22,13 +22,17 @@
 //! - A `vt` that is not finite counts as none, since such UVs are usually about to be replaced; a `v` is refused.
 //! - A backslash at the very end of a line continues statements made of numbers, but neither comments nor names.
 
+mod chunks;
 mod corner;
 mod error;
+mod join;
 mod labels;
 mod lines;
 mod output;
 mod parse;
 mod plain;
+mod plan;
+mod reader;
 mod sniff;
 mod text;
 mod texture;
@@ -139,11 +143,7 @@ impl ObjDocument {
     /// The polygons, copied, as [`QuadMesh::build`](crate::QuadMesh::build) takes them.
     #[must_use]
     pub fn polygons(&self) -> Polygons {
-        Polygons {
-            positions: self.index.positions.clone(),
-            face_start: self.index.face_start.clone(),
-            corner_vertex: self.index.corner_vertex.clone(),
-        }
+        self.view().to_polygons()
     }
 }
 

@@ -41,6 +41,18 @@ impl<'a> PolygonView<'a> {
     }
 }
 
+impl PolygonView<'_> {
+    /// The same polygons, copied.
+    #[must_use]
+    pub fn to_polygons(&self) -> Polygons {
+        Polygons {
+            positions: self.positions.to_vec(),
+            face_start: self.face_start.to_vec(),
+            corner_vertex: self.corner_vertex.to_vec(),
+        }
+    }
+}
+
 /// An owned list of polygons over shared positions.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -1,5 +1,7 @@
 //! What can be said of polygons face by face: sizes, indices, coordinates.
 
+use rayon::prelude::*;
+
 use crate::error::BuildError;
 use crate::polygons::PolygonView;
 use crate::{COORDINATE_LIMIT, Vec3};
@@ -11,8 +13,18 @@ pub(crate) fn check_polygons(
 ) -> Result<(), BuildError> {
     check_sizes(polygons)?;
     let count = polygons.positions.len();
+    let is_plain = |face: usize| {
+        let vertices = polygons.face(face);
+        (3..=8).contains(&vertices.len())
+            && vertices.iter().all(|&v| (v as usize) < count)
+            && repeated(vertices, &mut Vec::new()).is_none()
+    };
+    let beyond = |p: &Vec3| !p.iter().all(|x| x.abs() <= COORDINATE_LIMIT);
+    const AT_ONCE: usize = 1 << 14;
+    let odd: Vec<usize> =
+        (0..polygons.face_count()).into_par_iter().with_min_len(AT_ONCE).filter(|&f| !is_plain(f)).collect();
     let mut sorted = Vec::new();
-    for face in 0..polygons.face_count() {
+    for face in odd {
         let vertices = polygons.face(face);
         let face = face as u32;
         if vertices.len() < 3 {
@@ -25,7 +37,9 @@ pub(crate) fn check_polygons(
             repeats(face, vertex)?;
         }
     }
-    let beyond = |p: &Vec3| !p.iter().all(|x| x.abs() <= COORDINATE_LIMIT);
+    if !polygons.positions.par_chunks(AT_ONCE).any(|some| some.iter().any(beyond)) {
+        return Ok(());
+    }
     match polygons.positions.iter().position(beyond) {
         Some(vertex) => Err(BuildError::NonFiniteCoordinate { vertex: vertex as u32 }),
         None => Ok(()),

@@ -3,9 +3,17 @@
 //! Twins are found without hashing: all halfedges between two vertices leave one of the two, so it is enough to
 //! look through the shorter of their lists. Even adversarial poles keep that at `O(E^1.5)`.
 
+use std::sync::atomic::AtomicU32;
+use std::sync::atomic::Ordering::Relaxed;
+
+use rayon::prelude::*;
+
 use super::NONE;
 use crate::error::BuildError;
 use crate::ids::{FaceId, HalfedgeId};
+
+/// The least that a thread does at once.
+const AT_ONCE: usize = 1 << 12;
 
 /// The halfedges that leave each vertex, in the order of their indices.
 pub(super) struct Outgoing {
@@ -80,21 +88,30 @@ impl Links<'_> {
 
     /// The twin of every halfedge, `NONE` at the boundary.
     pub(super) fn twins(&self, fans: &Outgoing) -> Result<Vec<u32>, BuildError> {
-        let mut twin = vec![NONE; self.corner_vertex.len()];
-        for halfedge in 0..self.corner_vertex.len() as u32 {
-            if twin[halfedge as usize] != NONE {
-                continue;
+        let halfedges = self.corner_vertex.len() as u32;
+        let twin: Vec<AtomicU32> =
+            (0..halfedges).into_par_iter().with_min_len(AT_ONCE).map(|_| AtomicU32::new(NONE)).collect();
+        // Whoever comes first to an edge sees to both of its sides; should two come at once, they find the same.
+        let is_good = |halfedge: u32| {
+            if twin[halfedge as usize].load(Relaxed) != NONE {
+                return true;
             }
             match self.between(halfedge, fans) {
-                (1, 0, _) => {}
+                (1, 0, _) => true,
                 (1, 1, other) => {
-                    twin[halfedge as usize] = other;
-                    twin[other as usize] = halfedge;
+                    twin[halfedge as usize].store(other, Relaxed);
+                    twin[other as usize].store(halfedge, Relaxed);
+                    true
                 }
-                _ => return Err(self.bad_edge(halfedge, fans)),
+                _ => false,
             }
+        };
+        if !(0..halfedges).into_par_iter().with_min_len(AT_ONCE).all(is_good) {
+            // The first in the order of the input is named.
+            let is_bad = |&halfedge: &u32| !matches!(self.between(halfedge, fans), (1, 0 | 1, _));
+            return Err(self.bad_edge((0..halfedges).find(is_bad).unwrap_or(0), fans));
         }
-        Ok(twin)
+        Ok(twin.into_iter().map(AtomicU32::into_inner).collect())
     }
 
     fn bad_edge(&self, halfedge: u32, fans: &Outgoing) -> BuildError {
@@ -130,28 +147,34 @@ impl Links<'_> {
         fans: &Outgoing,
         twin: &[u32],
     ) -> Result<Vec<HalfedgeId>, BuildError> {
-        let mut firsts = Vec::with_capacity(fans.start.len() - 1);
-        let mut seen = Vec::new();
-        for vertex in 0..fans.start.len() as u32 - 1 {
+        let vertices = || (0..fans.start.len() as u32 - 1).into_par_iter().with_min_len(AT_ONCE);
+        let first = |vertex: u32| {
             let fan = fans.of(vertex);
-            let first = fan.iter().copied().find(|&h| twin[h as usize] == NONE).unwrap_or(fan[0]);
-            seen.clear();
-            let mut current = first;
-            loop {
-                seen.push(current);
-                current = twin[self.previous(current) as usize];
-                if current == NONE || current == first {
-                    break;
-                }
-            }
-            if seen.len() < fan.len() {
-                seen.sort_unstable();
-                let missed = fan.iter().find(|h| seen.binary_search(h).is_err()).unwrap_or(&fan[0]);
-                let faces = [first, *missed].map(|h| self.corner_face[h as usize].0);
-                return Err(BuildError::NonManifoldVertex { vertex, faces });
-            }
-            firsts.push(HalfedgeId(first));
-        }
-        Ok(firsts)
+            fan.iter().copied().find(|&h| twin[h as usize] == NONE).unwrap_or(fan[0])
+        };
+        let found: Option<Vec<HalfedgeId>> = vertices()
+            .map(|vertex| {
+                let first = first(vertex);
+                (self.fan(first, twin).count() == fans.of(vertex).len()).then_some(HalfedgeId(first))
+            })
+            .collect();
+        found.ok_or_else(|| {
+            let is_bad = |&vertex: &u32| self.fan(first(vertex), twin).count() < fans.of(vertex).len();
+            let vertex = (0..fans.start.len() as u32 - 1).find(is_bad).unwrap_or(0);
+            let mut seen: Vec<u32> = self.fan(first(vertex), twin).collect();
+            seen.sort_unstable();
+            let fan = fans.of(vertex);
+            let missed = fan.iter().find(|h| seen.binary_search(h).is_err()).unwrap_or(&fan[0]);
+            let faces = [first(vertex), *missed].map(|h| self.corner_face[h as usize].0);
+            BuildError::NonManifoldVertex { vertex, faces }
+        })
+    }
+
+    /// The halfedges that leave a vertex from `first` on, counter-clockwise, up to the boundary or `first` again.
+    fn fan<'b>(&'b self, first: u32, twin: &'b [u32]) -> impl Iterator<Item = u32> + 'b {
+        std::iter::successors(Some(first), move |&current| {
+            let following = twin[self.previous(current) as usize];
+            (following != NONE && following != first).then_some(following)
+        })
     }
 }

@@ -25,6 +25,13 @@ impl LineRuns {
         }
     }
 
+    /// Appends the runs of a part: its elements follow `elements` others, its lines `lines` others.
+    pub(super) fn append(&mut self, part: &Self, elements: u32, lines: u64) {
+        for &(first, line) in &part.runs {
+            self.push(first + elements, line + lines);
+        }
+    }
+
     pub(super) fn shrink_to_fit(&mut self) {
         self.runs.shrink_to_fit();
     }

@@ -1,8 +1,9 @@
 //! OBJ text for polygons that never were a file.
 
 use std::io::{self, Write};
+use std::ops::Range;
 
-use super::output::Output;
+use super::output::{Piece, write_pieces};
 use super::texture::{TextureTable, UvFormat, invalid};
 use crate::polygons::PolygonView;
 use crate::{QuadMesh, Vec2};
@@ -30,28 +31,61 @@ pub fn write_obj(
     let table = corner_uv
         .map(|uv| TextureTable::new(polygons.positions.len(), polygons.corner_vertex, uv, format))
         .transpose()?;
-    let mut out = Output::new(out);
-    for position in polygons.positions {
-        out.vertex(position)?;
-        out.bytes(b"\n")?;
-    }
-    for &uv in table.iter().flat_map(|table| &table.values) {
-        out.texture(uv, format)?;
-        out.bytes(b"\n")?;
-    }
-    for face in 0..polygons.face_count() {
-        out.bytes(b"f")?;
-        for corner in polygons.corners(face) {
-            out.bytes(b" ")?;
-            out.integer(polygons.corner_vertex[corner] as usize + 1)?;
-            if let Some(table) = &table {
-                out.bytes(b"/")?;
-                out.integer(table.of_corner[corner] as usize + 1)?;
+    let faces = polygons.face_count();
+    let vertices = polygons.positions.len();
+    let of_table = if table.is_some() { vertices } else { 0 };
+    let mut jobs = Vec::new();
+    jobs.extend(ranges(vertices).map(Job::Vertices));
+    jobs.extend(ranges(of_table).map(Job::Values));
+    jobs.extend(ranges(faces).map(Job::Faces));
+    write_pieces(out, &jobs, |job, piece| match job {
+        Job::Vertices(range) => {
+            for position in &polygons.positions[range.clone()] {
+                piece.vertex(position);
+                piece.bytes(b"\n");
             }
         }
-        out.bytes(b"\n")?;
+        Job::Values(range) => {
+            for uv in table.iter().flat_map(|table| table.values(range.clone())) {
+                piece.texture(uv, format);
+                piece.bytes(b"\n");
+            }
+        }
+        Job::Faces(range) => write_faces(polygons, table.as_ref(), range.clone(), piece),
+    })
+}
+
+/// What becomes a piece of the text.
+enum Job {
+    Vertices(Range<usize>),
+    Values(Range<usize>),
+    Faces(Range<usize>),
+}
+
+fn ranges(count: usize) -> impl Iterator<Item = Range<usize>> {
+    const AT_ONCE: usize = 1 << 14;
+    (0..count).step_by(AT_ONCE).map(move |start| start..count.min(start + AT_ONCE))
+}
+
+fn write_faces(
+    polygons: PolygonView<'_>,
+    table: Option<&TextureTable<'_>>,
+    faces: Range<usize>,
+    piece: &mut Piece,
+) {
+    let mut seams = table.map(|table| (table, table.seam_corners(polygons.face_start[faces.start] as usize)));
+    for face in faces {
+        piece.bytes(b"f");
+        for corner in polygons.corners(face) {
+            piece.bytes(b" ");
+            piece.integer(polygons.corner_vertex[corner] as usize + 1);
+            if let Some((table, seams)) = &mut seams {
+                piece.bytes(b"/");
+                piece.integer(table.place(corner, seams) + 1);
+            }
+        }
+        piece.bytes(b"\n");
     }
-    out.flush()
 }
 
 /// A mesh as OBJ text, as [`write_obj`] writes its polygons; vertices are numbered as in the mesh.

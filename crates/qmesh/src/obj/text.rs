@@ -44,12 +44,23 @@ pub(super) struct Statement {
 pub(super) struct Statements<'a> {
     text: &'a [u8],
     position: usize,
+    end: usize,
     line: usize,
 }
 
 impl<'a> Statements<'a> {
     pub(super) fn new(text: &'a [u8]) -> Self {
-        Self { text, position: content_start(text), line: 1 }
+        Self::within(text, 0..text.len())
+    }
+
+    /// The statements of a chunk, as [`chunks`](super::chunks::chunks) cuts it; lines are counted from its start.
+    pub(super) fn within(text: &'a [u8], chunk: Range<usize>) -> Self {
+        Self { text, position: chunk.start.max(content_start(text)), end: chunk.end, line: 1 }
+    }
+
+    /// How many lines have been passed.
+    pub(super) fn lines(&self) -> usize {
+        self.line - 1
     }
 }
 
@@ -57,7 +68,7 @@ impl Iterator for Statements<'_> {
     type Item = Statement;
 
     fn next(&mut self) -> Option<Statement> {
-        if self.position >= self.text.len() {
+        if self.position >= self.end {
             return None;
         }
         let (start, line) = (self.position, self.line);

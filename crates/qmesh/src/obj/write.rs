@@ -4,11 +4,12 @@ use std::io::{self, Write};
 use std::ops::Range;
 
 use super::ObjDocument;
+use super::chunks::CHUNK;
 use super::corner::Corners;
-use super::output::Output;
-use super::text;
-use super::text::{Keyword, Statement, Statements, Tokens, usual_line_end};
-use super::texture::{TextureTable, UvFormat};
+use super::output::{Piece, write_pieces};
+use super::plan::{Job, Plan};
+use super::text::{Keyword, Statement, Statements, usual_line_end};
+use super::texture::{SeamCorners, TextureTable, UvFormat};
 use crate::Vec2;
 
 /// What writing UVs did to the text.
@@ -34,6 +35,8 @@ impl ObjDocument {
     /// comes earlier. There is one for each distinct pair of vertex and value, ordered by vertex, so that without
     /// seams `vt` and `v` have the same numbers. When other lines (`l`, `surf`) name texture coordinates, the old
     /// `vt` lines stay and the new ones follow them. New lines end as the first line of the file does.
+    ///
+    /// The text is made in parallel and written in few large pieces; `out` needs no buffer.
     ///
     /// ```
     /// use qmesh::{Vec2, obj::ObjDocument};
@@ -63,180 +66,135 @@ impl ObjDocument {
         corner_uv: &[Vec2],
         format: UvFormat,
     ) -> io::Result<UvWriteSummary> {
+        self.write_in_chunks(out, corner_uv, format, CHUNK)
+    }
+
+    fn write_in_chunks(
+        &self,
+        out: &mut impl Write,
+        corner_uv: &[Vec2],
+        format: UvFormat,
+        chunk: usize,
+    ) -> io::Result<UvWriteSummary> {
         let view = self.view();
         let table = TextureTable::new(view.positions.len(), view.corner_vertex, corner_uv, format)?;
-        let plan = Plan::new(self.bytes());
+        let plan = Plan::new(self.bytes(), chunk, view.positions.len());
         let old = self.texture_coordinates().len();
         let summary = UvWriteSummary {
-            written: table.values.len(),
+            written: table.len(),
             removed: if plan.keeps_old { 0 } else { old },
             kept: if plan.keeps_old { old } else { 0 },
-            split_vertices: table.split_vertices,
+            split_vertices: table.split_vertices(),
         };
-        let mut editor = Editor {
+        let editor = Editor {
             text: self.bytes(),
-            copied: 0,
-            out: Output::new(out),
+            face_start: view.face_start,
+            line_end: usual_line_end(self.bytes()),
+            keeps_old: plan.keeps_old,
             first_index: summary.kept + 1,
             table,
-            corner: 0,
         };
-        editor.run(&plan, format)?;
-        editor.out.flush()?;
+        write_pieces(out, &plan.jobs, |job, piece| editor.make(job, piece))?;
         Ok(summary)
     }
 }
 
-/// What to do with old `vt` lines, and where the new ones go.
-struct Plan {
-    keeps_old: bool,
-    insert_at: usize,
-}
-
-impl Plan {
-    fn new(text: &[u8]) -> Self {
-        let mut first_place = None;
-        let mut last_needed = 0;
-        let (mut has_old, mut is_referenced) = (false, false);
-        for statement in Statements::new(text) {
-            match statement.keyword {
-                Keyword::Texture => {
-                    first_place.get_or_insert(statement.span.start);
-                    last_needed = statement.span.end;
-                    has_old = true;
-                }
-                Keyword::Face => {
-                    first_place.get_or_insert(statement.span.start);
-                }
-                Keyword::Reference => {
-                    let named = texture_reference(text, &statement);
-                    is_referenced |= named.is_some();
-                    // A negative index counts from where it stands: nothing may come between.
-                    if named == Some(Sign::Negative) {
-                        last_needed = statement.span.end;
-                    }
-                }
-                Keyword::Vertex | Keyword::Numbers | Keyword::Other => {}
-            }
-        }
-        let keeps_old = has_old && is_referenced;
-        let insert_at = if keeps_old { last_needed } else { first_place.unwrap_or(text.len()) };
-        Self { keeps_old, insert_at }
-    }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Sign {
-    Positive,
-    Negative,
-}
-
-/// Whether a line or surface names texture coordinates, and whether any of them counts backwards.
-fn texture_reference(text: &[u8], statement: &Statement) -> Option<Sign> {
-    let mut found = None;
-    for token in Tokens::new(text, &statement.body) {
-        let middle = text[token].split(|&b| b == b'/').nth(1).unwrap_or_default();
-        match middle.first() {
-            None => {}
-            Some(b'-') => return Some(Sign::Negative),
-            Some(_) => found = Some(Sign::Positive),
-        }
-    }
-    found
-}
-
-/// Copies the text up to each place that changes, and writes what belongs there.
-struct Editor<'a, W: Write> {
+/// Makes the pieces of the new text.
+struct Editor<'a> {
     text: &'a [u8],
-    /// How much of the text has been copied or skipped.
-    copied: usize,
-    out: Output<W>,
+    face_start: &'a [u32],
+    line_end: &'a [u8],
+    keeps_old: bool,
     /// The number of the first new `vt`.
     first_index: usize,
-    table: TextureTable,
-    /// The next corner.
-    corner: usize,
+    table: TextureTable<'a>,
 }
 
-impl<W: Write> Editor<'_, W> {
-    fn run(&mut self, plan: &Plan, format: UvFormat) -> io::Result<()> {
-        let mut is_inserted = false;
-        for statement in Statements::new(self.text) {
-            if !is_inserted && statement.span.start >= plan.insert_at {
-                self.copy_until(statement.span.start)?;
-                self.insert(format)?;
-                is_inserted = true;
+impl Editor<'_> {
+    fn make(&self, job: &Job, out: &mut Piece) {
+        match job {
+            Job::Text(range, first_face) => self.edit(range.clone(), *first_face, out),
+            Job::Values(vertices) => {
+                for uv in self.table.values(vertices.clone()) {
+                    out.texture(uv, self.table.format());
+                    out.bytes(self.line_end);
+                }
             }
+            Job::ValuesAfter(vertices) => {
+                for uv in self.table.values(vertices.clone()) {
+                    out.bytes(self.line_end);
+                    out.texture(uv, self.table.format());
+                }
+            }
+            Job::Close => {
+                // After a lone CR the first LF only completes its line end.
+                let is_half = self.line_end == b"\n" && self.text.last() == Some(&b'\r');
+                out.bytes(if is_half { b"\n\n" } else { self.line_end });
+            }
+        }
+    }
+
+    /// Copies the text up to each place that changes, and writes what belongs there.
+    fn edit(&self, range: Range<usize>, first_face: usize, out: &mut Piece) {
+        let mut copied = range.start;
+        let mut corner = self.face_start[first_face] as usize;
+        let mut seams = self.table.seam_corners(corner);
+        for statement in Statements::within(self.text, range.clone()) {
             match statement.keyword {
-                Keyword::Texture if !plan.keeps_old => self.replace(statement.span, |_| Ok(()))?,
-                Keyword::Face => self.face(&statement)?,
+                Keyword::Texture if !self.keeps_old => {
+                    out.bytes(&self.text[copied..statement.span.start]);
+                    copied = statement.span.end;
+                }
+                Keyword::Face => self.face(&statement, &mut corner, &mut seams, &mut copied, out),
                 _ => {}
             }
         }
-        self.copy_until(self.text.len())?;
-        if !is_inserted {
-            self.insert_at_end(format)?;
-        }
-        Ok(())
+        out.bytes(&self.text[copied..range.end]);
     }
 
-    fn face(&mut self, statement: &Statement) -> io::Result<()> {
-        let corners = Corners::new(self.text, statement);
+    fn face(
+        &self,
+        statement: &Statement,
+        corner: &mut usize,
+        seams: &mut SeamCorners<'_>,
+        copied: &mut usize,
+        out: &mut Piece,
+    ) {
         // Reading the document has accepted every corner.
-        for corner in corners.flatten() {
-            let index = self.first_index + self.table.of_corner[self.corner] as usize;
-            self.corner += 1;
-            self.replace(corner.texture_at, |out| {
-                if corner.needs_slash {
-                    out.bytes(b"/")?;
-                }
-                out.integer(index)
-            })?;
-        }
-        Ok(())
-    }
-
-    fn insert(&mut self, format: UvFormat) -> io::Result<()> {
-        let line_end = usual_line_end(self.text);
-        for &uv in &self.table.values {
-            self.out.texture(uv, format)?;
-            self.out.bytes(line_end)?;
-        }
-        Ok(())
-    }
-
-    /// After the last line, which may lack its line end: then so does the new last line.
-    fn insert_at_end(&mut self, format: UvFormat) -> io::Result<()> {
-        let line_end = usual_line_end(self.text);
-        let is_ended = matches!(self.text.last(), Some(b'\n' | b'\r'));
-        if text::is_left_open(self.text) {
-            // After a lone CR the first LF only completes its line end.
-            let is_half = line_end == b"\n" && self.text.last() == Some(&b'\r');
-            self.out.bytes(if is_half { b"\n\n" } else { line_end })?;
-        }
-        for (i, &uv) in self.table.values.iter().enumerate() {
-            if i > 0 || !is_ended {
-                self.out.bytes(line_end)?;
+        for written in Corners::new(self.text, statement).flatten() {
+            out.bytes(&self.text[*copied..written.texture_at.start]);
+            if written.needs_slash {
+                out.bytes(b"/");
             }
-            self.out.texture(uv, format)?;
+            out.integer(self.first_index + self.table.place(*corner, seams));
+            *copied = written.texture_at.end;
+            *corner += 1;
         }
-        if is_ended { self.out.bytes(line_end) } else { Ok(()) }
     }
+}
 
-    fn copy_until(&mut self, end: usize) -> io::Result<()> {
-        self.out.bytes(&self.text[self.copied..end])?;
-        self.copied = end;
-        Ok(())
-    }
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
 
-    fn replace(
-        &mut self,
-        range: Range<usize>,
-        write: impl FnOnce(&mut Output<W>) -> io::Result<()>,
-    ) -> io::Result<()> {
-        self.copy_until(range.start)?;
-        write(&mut self.out)?;
-        self.copied = range.end;
-        Ok(())
+    use super::*;
+    use crate::obj::chunks::tests::texts;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        /// Wherever the text is cut for the threads, the same bytes are written.
+        #[test]
+        fn chunks_do_not_show(text in texts(), size in 0usize..150, values in 1usize..9) {
+            let Ok(document) = ObjDocument::parse(text) else { return Ok(()) };
+            let uv: Vec<Vec2> =
+                (0..document.corner_count()).map(|c| Vec2::new((c % values) as f64 / 3.0, (c / 7 % values) as f64)).collect();
+            let written = |chunk: usize| {
+                let mut out = Vec::new();
+                let summary = document.write_in_chunks(&mut out, &uv, UvFormat::default(), chunk).expect("to memory");
+                (String::from_utf8_lossy(&out).into_owned(), summary)
+            };
+            prop_assert_eq!(written(size), written(usize::MAX));
+        }
     }
 }

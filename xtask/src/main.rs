@@ -38,6 +38,11 @@ const TASKS: &[(&str, &str, Task)] = &[
         meshes::run,
     ),
     (
+        "packing",
+        "what our packing and xatlas's fill with the same islands (--python PROGRAM), into docs/tables/meshes.md",
+        packing::run,
+    ),
+    (
         "readings",
         "the tables behind docs/paper.md; --check compares them, --times prints ratios of times",
         readings::run,
@@ -64,6 +69,7 @@ mod figure;
 mod fixtures;
 mod links;
 mod meshes;
+mod packing;
 mod readings;
 mod refine;
 mod section;

@@ -16,8 +16,10 @@ use qparam_cli::qoptimize::{atlas, certify, measure};
 use qparam_cli::{Environment, Exit, Interrupt, Streams};
 use serde_json::Value;
 
+use crate::section;
+
 /// Where the tables go, in the workspace.
-const FILE: &str = "docs/tables/meshes.md";
+pub(crate) const FILE: &str = "docs/tables/meshes.md";
 /// Meshes whose seams are compared: closed, or with seams that an artist made.
 const COMPARED: &[&str] = &["spot", "bob_cc2", "wingnut_6k", "teapot_fancy", "garment_casualsuit"];
 /// Meshes of more faces are not cut further: each cut is several maps.
@@ -52,13 +54,13 @@ pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
         eprint!("{rows}");
         text += &rows;
     }
-    fs::write(root.join(FILE), text).map_err(|error| format!("{FILE}: {error}"))
+    section::write(&root.join(FILE), "meshes", &text)
 }
 
-const HEAD: &str = "\
+const HEAD: &str = "
 # Real meshes
 
-Written by `cargo xtask meshes`: each file through `qparam unwrap FILE.obj` with no other options. Files, their sources and licences are in
+Each file through `qparam unwrap FILE.obj` with no other options. Files, their sources and licences are in
 the folder that `QPARAM_MESHES` names. (13) and (14) are the angle and area errors of the paper, SD the area-weighted mean symmetric
 Dirichlet energy (1 for an isometry), *stretch* what 99 % of the area of the worst island stays below. Seconds are wall time on two
 cores, with whatever else ran there.
@@ -85,7 +87,7 @@ fn name(mesh: &Path) -> &str {
 }
 
 /// `qparam unwrap` in this process: its exit code and its report.
-fn unwrap(mesh: &Path, output: &Path, more: &[&str]) -> Result<(Exit, Value), String> {
+pub(crate) fn unwrap(mesh: &Path, output: &Path, more: &[&str]) -> Result<(Exit, Value), String> {
     let (mut report, mut messages) = (Vec::new(), Vec::new());
     let mut streams = Streams {
         stdin: &mut std::io::empty(),
@@ -128,7 +130,7 @@ fn unwrapped_row(mesh: &Path, work: &Path) -> Result<String, String> {
     ))
 }
 
-fn digits(x: f64) -> String {
+pub(crate) fn digits(x: f64) -> String {
     let x = x + 0.0;
     if x != 0.0 && !(0.01..1e4).contains(&x.abs()) { format!("{x:.2e}") } else { format!("{x:.3}") }
 }

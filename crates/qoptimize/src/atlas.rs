@@ -30,6 +30,7 @@ use rayon::prelude::*;
 
 use self::solve::Solved;
 use crate::certificate::{Certificate, certify};
+use crate::direct::Continuation;
 use crate::distortion::{Distortion, measure};
 use crate::parameterize::RunRecord;
 use crate::rounding::{LISTED, to_precision};
@@ -175,7 +176,37 @@ pub fn unwrap_charts(
     observer: &dyn Observer,
 ) -> Result<Atlas, AtlasError> {
     options.check()?;
-    let mut solved = solve::all(pieces, options, observer)?;
+    let solved = solve::all(pieces, None, options, observer)?;
+    finish(polygons, solved, repairs, options, observer)
+}
+
+/// As [`unwrap_charts`] for several settings, one after the other: the map of each chart starts from the one before where
+/// [`parameterize_from`](crate::parameterize_from) can. `before` is empty at first, and the charts are to be the same in all calls.
+///
+/// # Errors
+/// As [`unwrap`].
+pub fn unwrap_charts_from(
+    before: &mut Vec<Continuation>,
+    polygons: PolygonView<'_>,
+    pieces: Vec<Chart>,
+    repairs: Repairs,
+    options: &AtlasOptions,
+    observer: &dyn Observer,
+) -> Result<Atlas, AtlasError> {
+    options.check()?;
+    before.resize_with(pieces.len(), Continuation::default);
+    let solved = solve::all(pieces, Some(before), options, observer)?;
+    finish(polygons, solved, repairs, options, observer)
+}
+
+/// Further cuts, the layout, and what there is to say of the whole.
+fn finish(
+    polygons: PolygonView<'_>,
+    mut solved: Vec<Solved>,
+    repairs: Repairs,
+    options: &AtlasOptions,
+    observer: &dyn Observer,
+) -> Result<Atlas, AtlasError> {
     if let Some(bound) = options.max_stretch {
         solved = refine::refine(solved, bound, options, observer)?;
     }

@@ -3,19 +3,22 @@
 //! Islands are neither turned nor mirrored, since they stand upright already. Each is covered, with half the margin
 //! around it, by cells of a grid; covers are placed one after the other, large ones first, in the lowest row and there
 //! at the leftmost place where no cell is taken, which fills the holes of large islands with small ones. All places in a
-//! row are tested at once, 64 to a machine word. The largest scale at which all find a place is found by bisection.
+//! row are tested at once, 64 to a machine word. What counts as large is tried in several ways, lying and standing
+//! ([`order`]), as long as there are few islands. The largest scale at which all find a place is found by bisection.
 //!
 //! The cover contains its island with a slack of a millionth of a cell, far more than coordinates round: islands whose
 //! covers share no cell do not overlap, and lie a margin apart.
 
 mod bitmap;
 mod cover;
+mod order;
 
 use qembed::qmesh::Vec2;
 use rayon::prelude::*;
 
 use self::bitmap::Bitmap;
 use self::cover::Cover;
+use self::order::Order;
 
 /// How islands are packed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,13 +78,7 @@ pub fn pack(shapes: &[Shape<'_>], options: &PackOptions) -> Packed {
     // So many islands that the margins alone would fill the square get smaller ones.
     let most = 0.5 * f64::from(side) / (shapes.len() as f64).sqrt();
     margin_cells = margin_cells.min(most);
-    let area: f64 = shapes.iter().map(area).sum();
-    let widest = boxes.iter().map(|[low, high]| (high - low).max()).fold(0.0, f64::max);
-    let room = f64::from(side) - margin_cells;
-    // Areas may be too large for numbers where lengths are not.
-    let bounds = [f64::from(side) / area.sqrt(), room / widest];
-    let largest = bounds.into_iter().filter(|bound| bound.is_finite() && *bound > 0.0).reduce(f64::min);
-    let largest = largest.unwrap_or(1.0);
+    let largest = largest_scale(shapes, &boxes, margin_cells, side);
     let attempt = |scale: f64| place(shapes, &boxes, scale, margin_cells, side, Some(side));
     let (mut low, mut high) = (largest * 0.8, largest);
     let mut best = None;
@@ -92,7 +89,7 @@ pub fn pack(shapes: &[Shape<'_>], options: &PackOptions) -> Packed {
         }
     }
     let (mut scale, mut places) = best.unwrap_or_else(|| (low, vec![[0, 0]; shapes.len()]));
-    for _ in 0..ATTEMPTS {
+    for _ in 0..if shapes.len() > order::FEW { ATTEMPTS - 2 } else { ATTEMPTS } {
         let middle = (scale * high).sqrt();
         match attempt(middle) {
             Some(found) => (scale, places) = (middle, found),
@@ -101,6 +98,21 @@ pub fn pack(shapes: &[Shape<'_>], options: &PackOptions) -> Packed {
     }
     let unit = f64::from(side).recip();
     finish(&boxes, &places, scale * unit, unit, margin_cells, options)
+}
+
+/// No larger scale has room, in cells to a unit: neither for the widest island, nor for the area of all with half the margin
+/// around them. For an island that hangs together the latter is `A s² + margin (w + h) s + margin²` at least.
+fn largest_scale(shapes: &[Shape<'_>], boxes: &[[Vec2; 2]], margin: f64, side: u32) -> f64 {
+    let sizes = || boxes.iter().map(|[low, high]| high - low);
+    let area: f64 = shapes.iter().map(area).sum();
+    let around: f64 = 0.5 * margin * sizes().map(|size| size.sum()).sum::<f64>();
+    let side = f64::from(side);
+    let room = side * side - shapes.len() as f64 * margin * margin;
+    let by_area = room / (around + (around * around + area * room).sqrt());
+    let by_width = (side - margin) / sizes().map(|size| size.max()).fold(0.0, f64::max);
+    // Areas may be too large for numbers where lengths are not.
+    let bounds = [by_area, by_width].into_iter().filter(|bound| bound.is_finite() && *bound > 0.0);
+    bounds.reduce(f64::min).unwrap_or(1.0)
 }
 
 /// Lays islands out at a given scale, without overlaps, in a strip that is as wide as the unit square (or as its widest
@@ -186,17 +198,18 @@ fn place(
     if height.is_some_and(|height| taken > (width as usize) * (height as usize)) {
         return None;
     }
-    let mut order: Vec<usize> = (0..covers.len()).collect();
-    order.sort_by_key(|&i| {
-        (
-            std::cmp::Reverse(covers[i].height().max(covers[i].width())),
-            std::cmp::Reverse(covers[i].cells()),
-            i,
-        )
-    });
+    // A strip has room for every order.
+    if height.is_none() || covers.len() > order::FEW {
+        return put_all(&covers, &order::sorted(&covers, Order::Side), width, height);
+    }
+    order::all(&covers).into_par_iter().find_map_first(|order| put_all(&covers, &order, width, height))
+}
+
+/// Places covers one after the other, as far as there is room.
+fn put_all(covers: &[Cover], order: &[usize], width: u32, height: Option<u32>) -> Option<Vec<[u32; 2]>> {
     let mut bitmap = Bitmap::new(width, height, covers.len());
     let mut places = vec![[0, 0]; covers.len()];
-    for i in order {
+    for &i in order {
         places[i] = bitmap.put(&covers[i])?;
     }
     Some(places)

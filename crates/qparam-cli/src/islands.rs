@@ -143,6 +143,10 @@ pub(crate) fn trades(seams: SeamLength, islands: &[Island]) -> Vec<Trade> {
     }
     let added = islands.iter().filter_map(|island| island.refinement.as_ref()).flat_map(|found| &found.cuts);
     let mut seam_length = seams.length - added.map(|cut| cut.length).sum::<f64>();
+    if seam_length < 1e-9 * seams.length {
+        // What rounding leaves of a surface without seams before.
+        seam_length = 0.0;
+    }
     let mut done = vec![0; islands.len()];
     let now = |island: usize, done: usize| match (&islands[island].refinement, done) {
         (None, _) => islands[island].stretch,
@@ -194,6 +198,26 @@ pub(crate) fn trade_text(trades: &[Trade], islands: &[Island], color: bool) -> S
         );
     }
     text
+}
+
+/// An island of more stretch than this is worth a word: a texel of one side there is one of four sides in the open.
+const GROSS_STRETCH: f64 = 4.0;
+
+/// The way out for islands that are stretched grossly; nothing when there are none.
+pub(crate) fn stretch_hint(islands: &[Island]) -> String {
+    let gross: Vec<&Island> = islands.iter().filter(|island| island.stretch > GROSS_STRETCH).collect();
+    let Some(worst) = gross.iter().max_by(|a, b| a.stretch.total_cmp(&b.stretch)) else {
+        return String::new();
+    };
+    let face = worst.first_face + 1;
+    let which = match gross.len() {
+        1 => format!("the island of face {face} is stretched"),
+        several => format!("{several} islands are stretched, most the one of face {face}"),
+    };
+    format!(
+        "hint: {which} by up to {} in 99 % of its area; --max-stretch 2 cuts it further (or 4, for fewer cuts), --seams says where\n",
+        short(worst.stretch)
+    )
 }
 
 /// The largest islands, one row each.

@@ -1,7 +1,8 @@
 //! `qparam unwrap --report`: the page that shows the map, and the maps for other `q` beside it.
 
-use qoptimize::atlas::unwrap_charts;
-use qoptimize::qmesh::{Chart, PolygonView, Repairs, Vec2};
+use qoptimize::atlas::unwrap_charts_from;
+use qoptimize::qmesh::charts::cut;
+use qoptimize::qmesh::{self, Chart, PolygonView, Repairs, Vec2};
 use qoptimize::{
     Atlas, AtlasError, AtlasOptions, Certificate, Distortion, FaceMeasures, Method, Options, measure_faces,
 };
@@ -127,9 +128,13 @@ fn entries(source: &Source<'_>, watch: &Watch<'_>, notes: &mut Vec<String>) -> R
     series.retain(|q| q.total_cmp(&options.map.q).is_ne());
     series.sort_unstable_by(|a, b| b.total_cmp(a));
     series.dedup();
+    let charts = charts(source)?;
+    let mut before = Vec::new();
     for q in series {
-        let other = AtlasOptions { map: Options { q, ..options.map.clone() }, ..options.clone() };
-        match unwrap_charts(polygons, source.charts.to_vec(), source.repairs.clone(), &other, watch) {
+        let map = Options { q, ..options.map.clone() };
+        let other = AtlasOptions { map, max_stretch: None, ..options.clone() };
+        let repairs = source.repairs.clone();
+        match unwrap_charts_from(&mut before, polygons, charts.clone(), repairs, &other, watch) {
             Ok(atlas) => entries.push(entry(polygons, Some(q), &atlas)?),
             Err(AtlasError::Cancelled) => return Err("interrupted".into()),
             // The map that was asked for is there: a page with a gap says more than an error.
@@ -138,6 +143,16 @@ fn entries(source: &Source<'_>, watch: &Watch<'_>, notes: &mut Vec<String>) -> R
     }
     entries.sort_by(|a, b| b.q.unwrap_or(0.0).total_cmp(&a.q.unwrap_or(0.0)));
     Ok(entries)
+}
+
+/// The charts of the map that was written: all maps of the series have its seams, also where `--max-stretch` added some.
+fn charts(source: &Source<'_>) -> Result<Vec<Chart>, String> {
+    if source.options.max_stretch.is_none() {
+        return Ok(source.charts.to_vec());
+    }
+    let (polygons, uv) = (source.input.document.view(), &source.result.uv);
+    let seams = qmesh::Seams::between(polygons, |a, b| (0..2).any(|end| uv[a[end]] != uv[b[end]]));
+    Ok(cut(polygons, &seams).map_err(|error| error.to_string())?.charts)
 }
 
 fn entry(polygons: PolygonView<'_>, q: Option<f64>, atlas: &Atlas) -> Result<Entry, String> {

@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use crate::info::connectivity::Edges;
 use crate::input::Input;
-use crate::islands::{Trade, island_table, layout_lines, repair_lines, trade_text};
+use crate::islands::{Trade, island_table, layout_lines, repair_lines, stretch_hint, trade_text};
 use crate::progress::StageTime;
 use crate::table::{Table, counted, short};
 use crate::worst::{self, WorstReport};
@@ -117,6 +117,9 @@ pub(crate) struct UnwrapReport<'a> {
     pub(crate) seams: SeamLength,
     /// What each cut of `--max-stretch` cost and brought.
     pub(crate) trade: Vec<Trade>,
+    /// Whether `--max-stretch` could be given, and is not.
+    #[serde(skip)]
+    pub(crate) may_be_cut: bool,
     /// How islands were laid out.
     pub(crate) layout: Option<Layout>,
     pub(crate) layout_options: serde_json::Value,
@@ -158,6 +161,9 @@ pub(crate) fn unwrap_text(report: &UnwrapReport<'_>, method: &str, color: bool) 
         text += &(island_table(report.islands).render(color) + "\n");
     }
     text += &trade_text(&report.trade, report.islands, color);
+    if report.may_be_cut {
+        text += &stretch_hint(report.islands);
+    }
     text += &distortion_table(&[(String::new(), report.distortion)]).render(color);
     text += &worst::text(&report.worst_faces);
     text += &format!("\ncertificate: {}\n", report.certificate);

@@ -317,6 +317,13 @@ impl Job<'_> {
         target.write(io.stdout, io.interrupt, |mut writer| write_obj(&mut writer, polygons.view(), None))
     }
 
+    /// Whether `--max-stretch` could be given, and is not.
+    fn may_be_cut(&self) -> bool {
+        let (options, map) = (&self.options, &self.options.map);
+        let is_held = !map.pins.is_empty() || map.symmetric || !options.keep.is_empty();
+        options.max_stretch.is_none() && !is_held && !matches!(map.boundary, BoundaryShape::Fixed(_))
+    }
+
     fn report(
         &self,
         result: &Atlas,
@@ -342,6 +349,7 @@ impl Job<'_> {
             repairs: &result.repairs,
             seams: result.seams,
             trade: trades(result.seams, &result.islands),
+            may_be_cut: self.may_be_cut(),
             layout: result.layout,
             layout_options: layout_json(&self.options),
             islands: &result.islands,

@@ -61,7 +61,8 @@ fn system(mesh: &QuadMesh, cost: &SeamCost, base: VertexId) -> Vec<EdgeId> {
     prune(mesh, edges)
 }
 
-/// Shortest paths from `base`: what they cost, and the last halfedge of each.
+/// Short paths from `base` that would rather go straight on: what they cost, and the last halfedge of each. Each vertex keeps one way to it,
+/// so that the paths are a tree; with turns they are not always the cheapest.
 fn tree(
     mesh: &QuadMesh,
     cost: &SeamCost,
@@ -76,7 +77,9 @@ fn tree(
             continue;
         }
         for halfedge in mesh.outgoing(vertex) {
-            let (to, there) = (mesh.target(halfedge), distance[vertex] + cost.edges[mesh.edge(halfedge)]);
+            let turn = parent[vertex].map_or(0.0, |before| cost.turn(mesh, before, halfedge));
+            let (to, there) =
+                (mesh.target(halfedge), distance[vertex] + turn + cost.edges[mesh.edge(halfedge)]);
             if there < distance[to] {
                 distance[to] = there;
                 parent[to] = Some(halfedge);
@@ -145,7 +148,7 @@ fn straightened(mesh: &QuadMesh, cost: &SeamCost, edges: &[EdgeId]) -> Vec<EdgeI
     for arc in &arcs {
         let near = corridor(mesh, arc, &others);
         let (start, end) = (arc[0], arc[arc.len() - 1]);
-        let mut blocked = SeamCost { edges: cost.edges.clone() };
+        let mut blocked = cost.clone();
         for edge in mesh.edges().filter(|&edge| mesh.edge_vertices(edge).iter().any(|&v| !near[v])) {
             blocked.edges[edge] = f64::INFINITY;
         }

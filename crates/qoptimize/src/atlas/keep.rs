@@ -4,6 +4,7 @@ use qembed::qmesh::{Chart, Observer, PolygonView, Seams, Vec2, VertexId};
 
 use super::AtlasError;
 use super::solve::{Solved, alone};
+use crate::direct::Continuation;
 use crate::distortion::measure;
 use crate::parameterize::{Options, RunRecord};
 
@@ -78,7 +79,8 @@ pub(super) fn solve(
         .collect();
     pins.sort_by_key(|pin| pin.0);
     pins.dedup_by_key(|pin| pin.0);
-    let mut solved = alone(chart, &Options { pins, ..options.clone() }, observer)?;
+    let mut solved =
+        alone(chart, &mut Continuation::default(), &Options { pins, ..options.clone() }, observer)?;
     // To the bit, whatever was rounded on the way.
     for (uv, kept) in solved.uv.iter_mut().zip(of_corner) {
         if let Some(kept) = kept.filter(|kept| kept != uv) {

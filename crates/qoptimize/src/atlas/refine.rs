@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::solve::{Solved, among_others, of_many};
 use super::stretch::stretch;
 use super::{AtlasError, AtlasOptions, tell};
+use crate::direct::Continuation;
 use crate::parameterize::Options;
 
 /// Cuts per island at most.
@@ -128,7 +129,7 @@ fn best_cut(
             if pieces.len() != 1 || pieces[0].mesh.vertex_count() == mesh.vertex_count() {
                 return Ok(None);
             }
-            let next = among_others(pieces.remove(0), map, &Within(observer))?;
+            let next = among_others(pieces.remove(0), &mut Continuation::default(), map, &Within(observer))?;
             let stretch = stretch(&next.chart.mesh, &next.uv).quantile;
             let length = edges.iter().map(|&edge| mesh.edge_length(edge)).sum();
             Ok(Some((Cut { edges: edges.len(), length, stretch }, next)))

@@ -12,10 +12,10 @@ use super::stretch::stretch;
 use super::{AtlasError, AtlasOptions, Island, keep, measures};
 use crate::certificate::Certificate;
 use crate::convexity::Exempt;
-use crate::direct::find_start;
+use crate::direct::{Continuation, find_start};
 use crate::distortion::{Distortion, measure};
 use crate::error::ParameterizeError;
-use crate::parameterize::{Method, Options, RunRecord, parameterize};
+use crate::parameterize::{Method, Options, RunRecord, parameterize_from};
 
 /// A chart with its map.
 #[derive(Clone, Debug)]
@@ -32,31 +32,36 @@ pub(super) struct Solved {
     pub(super) refinement: Option<Refinement>,
 }
 
-/// Maps all charts, in parallel and each as if it were alone.
+/// Maps all charts, in parallel and each as if it were alone; from the maps before, if there is one `Continuation` for each chart.
 pub(super) fn all(
     charts: Vec<Chart>,
+    mut before: Option<&mut [Continuation]>,
     options: &AtlasOptions,
     observer: &dyn Observer,
 ) -> Result<Vec<Solved>, AtlasError> {
     if let [chart] = &charts[..]
         && !keep::is_touched(chart, &options.keep)
     {
-        return charts.into_iter().map(|chart| alone(chart, &options.map, observer)).collect();
+        let mut fresh = Continuation::default();
+        let before = before.as_mut().map_or(&mut fresh, |before| &mut before[0]);
+        return charts.into_iter().map(|chart| alone(chart, before, &options.map, observer)).collect();
     }
     let map = of_many(options);
     let shared = Shared { observer, done: AtomicUsize::new(0), total: charts.len() };
-    let solved: Vec<Result<Solved, AtlasError>> = charts
-        .into_par_iter()
-        .map(|chart| {
-            let solved = if keep::is_touched(&chart, &options.keep) {
-                keep::solve(chart, &options.keep, &map, &shared)
-            } else {
-                among_others(chart, &map, &shared)
-            };
-            shared.done.fetch_add(1, Ordering::Relaxed);
-            solved
-        })
-        .collect();
+    let solve = |chart: Chart, before: &mut Continuation| {
+        let solved = if keep::is_touched(&chart, &options.keep) {
+            keep::solve(chart, &options.keep, &map, &shared)
+        } else {
+            among_others(chart, before, &map, &shared)
+        };
+        shared.done.fetch_add(1, Ordering::Relaxed);
+        solved
+    };
+    let charts = charts.into_par_iter();
+    let solved: Vec<Result<Solved, AtlasError>> = match before {
+        Some(before) => charts.zip(before).map(|(chart, before)| solve(chart, before)).collect(),
+        None => charts.map(|chart| solve(chart, &mut Continuation::default())).collect(),
+    };
     solved.into_iter().collect()
 }
 
@@ -79,8 +84,13 @@ impl Observer for Shared<'_> {
 }
 
 /// The only chart: errors are errors.
-pub(super) fn alone(chart: Chart, options: &Options, observer: &dyn Observer) -> Result<Solved, AtlasError> {
-    match parameterize(&chart.mesh, options, observer) {
+pub(super) fn alone(
+    chart: Chart,
+    before: &mut Continuation,
+    options: &Options,
+    observer: &dyn Observer,
+) -> Result<Solved, AtlasError> {
+    match parameterize_from(before, &chart.mesh, options, observer) {
         Ok(map) => Ok(Solved {
             chart,
             uv: map.uv,
@@ -105,19 +115,20 @@ fn refusal(chart: Chart, error: ParameterizeError) -> AtlasError {
 /// One chart of several: what the method cannot do, another one does.
 pub(super) fn among_others(
     chart: Chart,
+    before: &mut Continuation,
     options: &Options,
     observer: &dyn Observer,
 ) -> Result<Solved, AtlasError> {
     if let Err(error) = qembed::check_patch(&chart.mesh) {
         return Err(refusal(chart, error.into()));
     }
-    let error = match alone(chart.clone(), options, observer) {
+    let error = match alone(chart.clone(), before, options, observer) {
         Err(AtlasError::Island { error, .. }) => error,
         other => return other,
     };
     let direct = Options { method: Method::Direct, ..options.clone() };
     if options.method != Method::Direct
-        && let Ok(solved) = alone(chart.clone(), &direct, observer)
+        && let Ok(solved) = alone(chart.clone(), &mut Continuation::default(), &direct, observer)
     {
         return Ok(Solved { fallback: Some(error.to_string()), ..solved });
     }

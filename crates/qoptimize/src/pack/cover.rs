@@ -25,8 +25,11 @@ impl Cover {
         let at = |p: &Vec2| (p - low) * scale + Vec2::repeat(around);
         let around = around + SLACK;
         let mut spans: Vec<[u32; 3]> = Vec::new();
+        let mut corners: Vec<Vec2> = Vec::new();
         for pair in shape.face_start.windows(2) {
-            cover_face(&shape.uv[pair[0] as usize..pair[1] as usize], at, around, &mut spans);
+            corners.clear();
+            corners.extend(shape.uv[pair[0] as usize..pair[1] as usize].iter().map(at));
+            cover_face(&corners, around, &mut spans);
         }
         if spans.is_empty() {
             spans.push([0, 0, 1]);
@@ -71,17 +74,18 @@ impl Cover {
 }
 
 /// Appends `[row, from, to]` for each row of cells that comes within `around` of the convex hull of a face.
-fn cover_face(corners: &[Vec2], at: impl Fn(&Vec2) -> Vec2, around: f64, spans: &mut Vec<[u32; 3]>) {
+fn cover_face(corners: &[Vec2], around: f64, spans: &mut Vec<[u32; 3]>) {
     let cell = |x: f64| x.clamp(0.0, MOST_CELLS).floor() as u32;
-    let low = corners.iter().map(|p| at(p).y).fold(f64::INFINITY, f64::min) - around;
-    let high = corners.iter().map(|p| at(p).y).fold(f64::NEG_INFINITY, f64::max) + around;
+    let low = corners.iter().map(|p| p.y).fold(f64::INFINITY, f64::min) - around;
+    let high = corners.iter().map(|p| p.y).fold(f64::NEG_INFINITY, f64::max) + around;
     for row in cell(low)..=cell(high) {
         // The part of each edge that lies in the row or within `around` of it.
         let (bottom, top) = (f64::from(row) - around, f64::from(row + 1) + around);
         let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
-        for (i, corner) in corners.iter().enumerate() {
-            let (a, b) = (at(corner), at(&corners[(i + 1) % corners.len()]));
-            let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
+        let mut previous = corners[corners.len() - 1];
+        for &corner in corners {
+            let (a, b) = if previous.y <= corner.y { (previous, corner) } else { (corner, previous) };
+            previous = corner;
             if b.y < bottom || a.y > top {
                 continue;
             }

@@ -192,12 +192,16 @@ fn see(sample: &mut Sample, patch: u32, p: &[Point; 3], share: [f64; 3]) {
 }
 
 /// Into how many parts each side of a quad is cut: what a cell's two triangles miss falls with the square of their number.
-/// The twist is that of the patch before the division by depth, since triangles are drawn with perspective.
+/// Triangles are drawn with perspective, so what they miss is twist before the division by depth: that of places, seen from where
+/// the cell is, since depths twist too. Of all such places a corner is the worst.
 fn parts(corners: &[Seen; 4]) -> usize {
     let depth = corners.map(|corner| 1.0 / corner.inverse_depth);
-    let middle = corners.iter().map(|corner| corner.place).sum::<Vec2>() / 4.0;
-    let offset: [Vec2; 4] = std::array::from_fn(|i| (corners[i].place - middle) * depth[i]);
-    let twist = (offset[0] - offset[1] + offset[2] - offset[3]).norm() / depth.iter().sum::<f64>();
+    let least = depth.iter().copied().fold(f64::INFINITY, f64::min);
+    let twist = |from: &Seen| {
+        let offset: [Vec2; 4] = std::array::from_fn(|i| (corners[i].place - from.place) * depth[i]);
+        (offset[0] - offset[1] + offset[2] - offset[3]).norm() / (4.0 * least)
+    };
+    let twist = corners.iter().map(twist).fold(0.0, f64::max);
     ((twist / TOLERANCE).sqrt().ceil().clamp(1.0, MOST_PARTS)) as usize
 }
 

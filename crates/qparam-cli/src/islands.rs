@@ -215,7 +215,7 @@ pub(crate) fn stretch_hint(islands: &[Island]) -> String {
         several => format!("{several} islands are stretched, most the one of face {face}"),
     };
     format!(
-        "hint: {which} by up to {} in 99 % of its area; --max-stretch 2 cuts it further (or 4, for fewer cuts), --seams says where\n",
+        "hint: {which} by up to {} in 99 % of its area; --max-stretch 2 cuts it further (or 4, for fewer cuts), --seams says where\n\n",
         short(worst.stretch)
     )
 }

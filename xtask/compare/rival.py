@@ -5,6 +5,7 @@ corners of the quads. The report has `solve_seconds` (wall), `solve_cpu_seconds`
 """
 
 import json
+import math
 import sys
 import time
 
@@ -109,7 +110,9 @@ def tutte(count, triangles, loop, circle):
     return uv
 
 
-def blender(method, **options):
+def in_blender(operate):
+    """A method that runs `operate(bpy.ops.uv)` on the whole mesh, in edit mode, in an empty scene."""
+
     def run(source, surface, target):
         import bpy
 
@@ -123,7 +126,7 @@ def blender(method, **options):
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.mesh.select_all(action="SELECT")
         with Clock() as clock:
-            bpy.ops.uv.unwrap(method=method, correct_aspect=False, margin=0.0, **options)
+            operate(bpy.ops.uv)
         bpy.ops.object.mode_set(mode="OBJECT")
         uv = np.empty(2 * len(data.loops), np.float32)
         data.uv_layers[layer].uv.foreach_get("vector", uv)
@@ -133,28 +136,13 @@ def blender(method, **options):
     return run
 
 
-def blender_smart(source, surface, target):
+def blender(method, **options):
+    return in_blender(lambda uv: uv.unwrap(method=method, correct_aspect=False, margin=0.0, **options))
+
+
+def blender_smart():
     """Smart UV project: charts by direction of faces, each projected. Not a contestant of the league, which gives everybody a disk."""
-    import math
-
-    import bpy
-
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    data = bpy.data.meshes.new("mesh")
-    data.from_pydata(surface.positions.tolist(), [], surface.faces)
-    layer = data.uv_layers.new(name="uv").name
-    thing = bpy.data.objects.new("mesh", data)
-    bpy.context.scene.collection.objects.link(thing)
-    bpy.context.view_layer.objects.active = thing
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
-    with Clock() as clock:
-        bpy.ops.uv.smart_project(angle_limit=math.radians(66), island_margin=0.001)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    uv = np.empty(2 * len(data.loops), np.float32)
-    data.uv_layers[layer].uv.foreach_get("vector", uv)
-    obj.write_corner_uvs(target, source, surface, uv.reshape(-1, 2))
-    return clock
+    return in_blender(lambda uv: uv.smart_project(angle_limit=math.radians(66), island_margin=0.001))
 
 
 def xatlas(source, surface, target):
@@ -201,7 +189,7 @@ def main():
         print("\n".join(METHODS))
         return
     method, source, target, report = sys.argv[1:]
-    clock = {**METHODS, "blender-smart": blender_smart}[method](source, obj.read(source), target)
+    clock = {**METHODS, "blender-smart": blender_smart()}[method](source, obj.read(source), target)
     figures = {"solve_seconds": clock.wall, "solve_cpu_seconds": clock.cpu}
     with open(report, "w", encoding="utf-8") as file:
         json.dump({**figures, "peak_memory_bytes": obj.peak_memory_bytes()}, file)

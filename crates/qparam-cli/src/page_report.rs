@@ -11,7 +11,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::interrupt::Phase;
-use crate::picture::page::{MapEntry, Page};
+use crate::picture::page::{MapEntry, Page, WORST};
 use crate::picture::{
     Canvas, Layout, Lines, Model, Paint, PictureError, Projection, Rgba, Seams, Shot, UpAxis, View, render,
     uv_area,
@@ -21,6 +21,7 @@ use crate::render_command::{checks, clay};
 use crate::streams::Streams;
 use crate::sweep::{Errors, knee};
 use crate::threads;
+use crate::worst;
 
 /// What a page is made from.
 pub(crate) struct Source<'a> {
@@ -46,6 +47,7 @@ struct Entry {
     distortion: Distortion,
     certificate: Certificate,
     faces: FaceMeasures,
+    causes: Vec<(usize, String)>,
 }
 
 /// The page; maps for other `q` are computed here.
@@ -82,14 +84,14 @@ fn page(source: &Source<'_>, watch: &Watch<'_>) -> Result<String, String> {
             distortion: &entry.distortion,
             certificate: &entry.certificate,
             faces: &entry.faces,
+            causes: &entry.causes,
         })
         .collect();
     let shown = &entries[chosen];
     let pictures =
         pictures(source.input.document.view(), &shown.uv, &shown.faces).map_err(|error| error.to_string())?;
     let page = Page {
-        // The name without its folders: pages are sent around.
-        title: source.input.name.rsplit(['/', '\\']).next().unwrap_or_default(),
+        title: without_folders(&source.input.name),
         polygons: source.input.document.view(),
         face_line: &|face| source.input.document.face_line(face),
         maps: &maps,
@@ -100,6 +102,11 @@ fn page(source: &Source<'_>, watch: &Watch<'_>) -> Result<String, String> {
         pictures: [&pictures[0], &pictures[1]],
     };
     page.html().map_err(|error| error.to_string())
+}
+
+/// The name of a file alone.
+pub(crate) fn without_folders(name: &str) -> &str {
+    name.rsplit(['/', '\\']).next().unwrap_or_default()
 }
 
 fn reads_q(method: Method) -> bool {
@@ -119,7 +126,8 @@ fn usual_q(faces: usize) -> &'static [f64] {
 fn entries(source: &Source<'_>, watch: &Watch<'_>, notes: &mut Vec<String>) -> Result<Vec<Entry>, String> {
     let options = source.options;
     let polygons = source.input.document.view();
-    let own = entry(polygons, None, source.result)?;
+    let charts = charts(source)?;
+    let own = entry(source, &charts, None, source.result)?;
     if !reads_q(options.map.method) {
         return Ok(vec![own]);
     }
@@ -128,14 +136,13 @@ fn entries(source: &Source<'_>, watch: &Watch<'_>, notes: &mut Vec<String>) -> R
     series.retain(|q| q.total_cmp(&options.map.q).is_ne());
     series.sort_unstable_by(|a, b| b.total_cmp(a));
     series.dedup();
-    let charts = charts(source)?;
     let mut before = Vec::new();
     for q in series {
         let map = Options { q, ..options.map.clone() };
         let other = AtlasOptions { map, max_stretch: None, ..options.clone() };
         let repairs = source.repairs.clone();
         match unwrap_charts_from(&mut before, polygons, charts.clone(), repairs, &other, watch) {
-            Ok(atlas) => entries.push(entry(polygons, Some(q), &atlas)?),
+            Ok(atlas) => entries.push(entry(source, &charts, Some(q), &atlas)?),
             Err(AtlasError::Cancelled) => return Err("interrupted".into()),
             // The map that was asked for is there: a page with a gap says more than an error.
             Err(error) => notes.push(format!("no map for q = {q}: {error}")),
@@ -155,14 +162,16 @@ fn charts(source: &Source<'_>) -> Result<Vec<Chart>, String> {
     Ok(cut(polygons, &seams).map_err(|error| error.to_string())?.charts)
 }
 
-fn entry(polygons: PolygonView<'_>, q: Option<f64>, atlas: &Atlas) -> Result<Entry, String> {
-    let (oriented, uv) = atlas.oriented(polygons);
+fn entry(source: &Source<'_>, charts: &[Chart], q: Option<f64>, atlas: &Atlas) -> Result<Entry, String> {
+    let (oriented, uv) = atlas.oriented(source.input.document.view());
+    let worst = worst::find(source.input, charts, atlas, source.options, WORST).unwrap_or_default();
     Ok(Entry {
         q,
         uv: atlas.uv.clone(),
         distortion: atlas.distortion.clone(),
         certificate: atlas.certificate.clone(),
         faces: measure_faces(oriented.view(), &uv).map_err(|error| error.to_string())?,
+        causes: worst.iter().map(|face| (face.index(), face.reasons())).collect(),
     })
 }
 

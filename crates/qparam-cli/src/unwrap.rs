@@ -275,7 +275,10 @@ impl Job<'_> {
     /// The page of `--report`.
     fn page(&self, result: &Atlas, io: &Streams<'_>) -> Result<String, Failure> {
         let map = &self.arguments.map;
-        let mut notes = vec![InputReport::new(&self.input).line().trim_end().to_owned()];
+        let mut input = InputReport::new(&self.input);
+        // Pages are sent around.
+        input.file = page_report::without_folders(&input.file).to_owned();
+        let mut notes = vec![input.line().trim_end().to_owned()];
         notes.push(method_line(map, Some(self.arguments.q)));
         notes.extend(done_lines(
             record(result),

@@ -112,14 +112,23 @@ impl WorstReport {
             Some(energy) => format!("symmetric Dirichlet {}", short(energy)),
             None => "flipped".to_owned(),
         };
-        let causes: Vec<String> = self.causes.iter().map(CauseReport::words).collect();
         format!(
             "face {} at ({x}, {y}, {z}): {energy}, angles {}° off, area × {}; {}",
             self.face,
             short(self.angle_degrees),
             short(self.area_ratio),
-            causes.join(", ")
+            self.reasons()
         )
+    }
+
+    /// Its index, from 0.
+    pub(crate) fn index(&self) -> usize {
+        self.face - 1
+    }
+
+    /// What forces it, in words.
+    pub(crate) fn reasons(&self) -> String {
+        self.causes.iter().map(CauseReport::words).collect::<Vec<_>>().join(", ")
     }
 }
 

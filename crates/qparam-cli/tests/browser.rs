@@ -93,6 +93,7 @@ fn a_page_of_many_quads_can_be_used() {
             distortion,
             certificate,
             faces,
+            causes: &[],
         })
         .collect();
     let picture = Canvas::new(8, 8, Rgba::CLEAR);

@@ -43,6 +43,7 @@ fn a_page_holds_the_whole_series() {
         assert_eq!((&map["holds"], &map["certificate"]), (&true.into(), &"holds".into()));
         let worst = map["worst"].as_array().unwrap();
         assert!(worst.len() == 12 && worst[0]["line"].as_u64().unwrap() > 36);
+        assert!(worst.iter().all(|face| !face["cause"].as_str().unwrap().is_empty()));
     }
     assert_eq!((&meta["shape"]["faces"], &meta["shape"]["points"]), (&25.into(), &36.into()));
     assert!(!page.contains("https:") && !page.contains("http:"), "nothing is looked up elsewhere");

@@ -8,6 +8,7 @@ mod data;
 mod encode;
 
 use qoptimize::qmesh::{PolygonView, Vec2};
+use qoptimize::worst::rank_faces;
 use qoptimize::{Certificate, Distortion, FaceMeasures};
 use serde::Serialize;
 
@@ -36,7 +37,7 @@ const SCRIPTS: [&str; 7] = [
 /// More faces than this are shown as pictures only: the page would be too heavy for browsers.
 pub const FACE_LIMIT: usize = 300_000;
 /// How many of the worst faces are listed for each map.
-const WORST: usize = 12;
+pub const WORST: usize = 12;
 
 /// One map of the series.
 pub struct MapEntry<'a> {
@@ -50,6 +51,8 @@ pub struct MapEntry<'a> {
     pub certificate: &'a Certificate,
     /// Measures of the faces.
     pub faces: &'a FaceMeasures,
+    /// Of some faces (in numbers from 0) what forces their errors, in words: wanted for the [`WORST`].
+    pub causes: &'a [(usize, String)],
 }
 
 /// Everything that a page says.
@@ -98,18 +101,20 @@ struct MapMeta<'a> {
     distortion: &'a Distortion,
     holds: bool,
     certificate: String,
-    worst: Vec<Worst>,
+    worst: Vec<Worst<'a>>,
 }
 
 /// A face that stands out, in the numbers of the file.
 #[derive(Serialize)]
-struct Worst {
+struct Worst<'a> {
     face: usize,
     line: usize,
     angle: f64,
     area: f64,
     /// s1/s2; nothing for a flipped face.
     ratio: Option<f64>,
+    /// What forces it; empty where nobody said.
+    cause: &'a str,
 }
 
 impl Page<'_> {
@@ -163,16 +168,15 @@ impl Page<'_> {
 
     fn map_meta<'b>(&self, map: &'b MapEntry<'b>) -> MapMeta<'b> {
         let faces = map.faces;
-        let mut order: Vec<usize> = (0..faces.flipped.len()).collect();
-        let badness = |&face: &usize| faces.symmetric_dirichlet[face];
-        order.sort_by(|a, b| badness(b).total_cmp(&badness(a)).then(a.cmp(b)));
-        order.truncate(WORST);
-        let worst = order.into_iter().map(|face| Worst {
+        let cause =
+            |face: usize| map.causes.iter().find(|known| known.0 == face).map_or("", |known| &known.1);
+        let worst = rank_faces(faces, WORST).into_iter().map(|face| Worst {
             face: face + 1,
             line: (self.face_line)(face),
             angle: faces.angle_degrees[face],
             area: faces.area_ratio[face],
             ratio: Some(faces.singular_ratio[face]).filter(|ratio| ratio.is_finite()),
+            cause: cause(face),
         });
         MapMeta {
             q: map.q,

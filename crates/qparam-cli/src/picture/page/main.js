@@ -123,7 +123,7 @@ class App {
     }[name];
     return {
       a: this.a, b: this.b, mix: this.mix, style: this.style, hover: this.hover, edges: $('edges').checked, seams: $('seams').checked,
-      checks: Math.sqrt(2 ** Number($('checks').value) / this.meta.shape.area), background: color('--card'), ink: [0.12, 0.14, 0.2],
+      checks: Math.sqrt(2 ** Number($('checks').value) / this.meta.shape.area), background: color('--card'), ink: [0.12, 0.14, 0.2], outline: color('--ink'),
       range: range ? range(this.ranges[name]) : [0, 1], ramp: name === 'area' ? 'diverging' : 'sequential', lineWidth: 1.6 * devicePixelRatio,
     };
   }

@@ -63,6 +63,9 @@ class Panel {
       button.textContent = `face ${worst.face} (line ${worst.line}): ${reason(worst)}`;
       button.addEventListener('click', () => this.fly(worst.face - 1));
       entry.append(button);
+      const cause = document.createElement('div');
+      cause.textContent = worst.cause;
+      entry.append(cause);
       return entry;
     }));
   }

@@ -65,6 +65,7 @@ class Scene {
       const bound = this.bind(this.lines, view, look);
       gl.uniform2f(bound.uPixel, 2 / width, 2 / height);
       gl.uniform1f(bound.uWidth, look.lineWidth);
+      gl.uniform3f(bound.uEdge, ...look.outline);
       gl.drawArrays(gl.TRIANGLES, 0, 6 * this.edges);
     }
   }

@@ -5,7 +5,7 @@
 use qoptimize::atlas::{open, unwrap_charts, unwrap_charts_from};
 use qoptimize::qmesh::charts::cut;
 use qoptimize::qmesh::{PolygonView, Polygons, Seams, shapes};
-use qoptimize::{AtlasOptions, Options};
+use qoptimize::{AtlasOptions, Continuation, Options};
 
 /// A bump, and a sphere beside it.
 fn two() -> Polygons {
@@ -34,7 +34,7 @@ fn a_series_is_as_good_as_single_maps() {
         let (view, repairs) = (polygons.view(), found.repairs.clone());
         let one = unwrap_charts(view, charts.clone(), repairs.clone(), &options, &()).unwrap();
         let next = unwrap_charts_from(&mut before, view, charts.clone(), repairs, &options, &()).unwrap();
-        assert!(next.certificate.holds && before.iter().all(|kept| kept.is_warm()));
+        assert!(next.certificate.holds && before.iter().all(Continuation::is_warm));
         assert_eq!((next.islands.len(), next.seams), (one.islands.len(), one.seams));
         for (a, b) in [
             (one.distortion.angle_error, next.distortion.angle_error),

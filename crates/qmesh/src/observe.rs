@@ -10,6 +10,12 @@ pub trait Observer: Sync {
     /// `fraction` (0 to 1) of `stage` is done. `Break` asks to stop: the work ends with a `Cancelled` error
     /// at the next safe place.
     fn progress(&self, stage: &'static str, fraction: f64) -> ControlFlow<()>;
+
+    /// Whether time is up. Work that has a result at hand then ends with that result, and work that has none yet fails; what
+    /// makes a result fit for use (layout, measures, certificates) is still done. Asked as often as `progress` is called.
+    fn is_late(&self) -> bool {
+        false
+    }
 }
 
 impl Observer for () {

@@ -29,9 +29,9 @@ use qembed::qmesh::{COORDINATE_LIMIT, Chart, Observer, PolygonView, Polygons, Re
 use rayon::prelude::*;
 
 use self::solve::Solved;
-use crate::certificate::{Certificate, certify};
+use crate::certificate::{Certificate, judge};
 use crate::direct::Continuation;
-use crate::distortion::{Distortion, measure};
+use crate::distortion::Distortion;
 use crate::parameterize::RunRecord;
 use crate::rounding::{LISTED, to_precision};
 
@@ -43,6 +43,8 @@ pub struct Atlas {
     pub uv: Vec<Vec2>,
     /// The islands, by first face.
     pub islands: Vec<Island>,
+    /// Their charts, cut further where that was asked for and needed.
+    pub charts: Vec<Chart>,
     /// How good the whole is, each island with the orientation of its chart.
     pub distortion: Distortion,
     /// The proof that nothing overlaps, or what is in the way; in the numbers of the polygons.
@@ -99,6 +101,8 @@ pub struct Island {
     pub flipped_corners: usize,
     /// Pairs of boundary edges that meet.
     pub boundary_crossings: usize,
+    /// Whether more time would have made another map of it: see [`Observer::is_late`].
+    pub ended_by_time: bool,
     /// Why the method was not the one asked for.
     pub fallback: Option<String>,
     /// How it was cut further: nothing where that was not asked for or not needed.
@@ -128,6 +132,9 @@ pub struct Layout {
 }
 
 /// UVs for any polygons, opened along `seams` and wherever else it is needed.
+///
+/// When the observer [is late](Observer::is_late), descents end with the maps at hand, of several islands those that have none yet are left with
+/// their convex start, and the rest is done as always. [`Island::ended_by_time`] says of which islands that is true.
 ///
 /// The observer hears of `"charts"`, then of the stages of the one island there is, or of `"islands"` when there are
 /// several, then of `"layout"` and `"measure"`.
@@ -239,14 +246,13 @@ fn finish(
             let precision = options.map.precision;
             to_precision(turned.view(), &mut turned_uv, precision).map_err(AtlasError::Options)?;
             (_, uv) = measures::oriented(polygons, &turned_faces, &turned_uv);
-            let distortion = measure(turned.view(), &turned_uv)?;
-            (distortion, certify(turned.view(), &turned_uv, LISTED)?)
+            judge(turned.view(), &turned_uv, LISTED)?
         }
     };
     tell(observer, "measure", 1.0)?;
     let seams = measures::seam_length(polygons, &solved);
-    let islands = solved.into_par_iter().map(Solved::island).collect();
-    Ok(Atlas { uv, islands, distortion, certificate, repairs, seams, layout, turned_faces })
+    let (islands, charts) = solved.into_par_iter().map(Solved::island).unzip();
+    Ok(Atlas { uv, islands, charts, distortion, certificate, repairs, seams, layout, turned_faces })
 }
 
 /// The UVs of all charts at the corners of the polygons.

@@ -61,7 +61,7 @@ use qembed::qmesh::{PolygonView, Vec2};
 use rayon::prelude::*;
 
 pub use self::violation::{Place, Violation, ViolationKind};
-use crate::distortion::MeasureError;
+use crate::distortion::{Distortion, MeasureError, check, measure_islands};
 use crate::plane::{Islands, orientation};
 
 /// The verdict on a map.
@@ -136,8 +136,32 @@ pub fn certify(
     limit: usize,
 ) -> Result<Certificate, MeasureError> {
     crate::distortion::check_arrays(polygons, corner_uv)?;
-    let is_finite = corner_uv.par_iter().all(|p| p.iter().all(|x| x.is_finite()));
+    Ok(certify_islands(polygons, corner_uv, &Islands::find(polygons, corner_uv), limit))
+}
+
+/// Both [`measure`](crate::measure) and [`certify`], which together cost less than one after the other.
+///
+/// # Errors
+/// As [`measure`](crate::measure).
+pub fn judge(
+    polygons: PolygonView<'_>,
+    corner_uv: &[Vec2],
+    limit: usize,
+) -> Result<(Distortion, Certificate), MeasureError> {
+    check(polygons, corner_uv)?;
     let islands = Islands::find(polygons, corner_uv);
+    // One after the other: each works in parallel by itself, and together they would need the memory of both.
+    let distortion = measure_islands(polygons, corner_uv, &islands)?;
+    Ok((distortion, certify_islands(polygons, corner_uv, &islands, limit)))
+}
+
+fn certify_islands(
+    polygons: PolygonView<'_>,
+    corner_uv: &[Vec2],
+    islands: &Islands,
+    limit: usize,
+) -> Certificate {
+    let is_finite = corner_uv.par_iter().all(|p| p.iter().all(|x| x.is_finite()));
     let map = Map { polygons, uv: corner_uv, islands, all_finite: is_finite };
     let mut found = Findings { limit, ..Findings::default() };
     let verdicts = faces::judge(&map);
@@ -152,7 +176,7 @@ pub fn certify(
     }
     found.violations.sort_by_cached_key(|violation| (violation.kind, place_key(violation)));
     let exempt = verdicts.iter().enumerate().filter(|(_, verdict)| verdict.exempt);
-    Ok(Certificate {
+    Certificate {
         holds: complete && found.counts.is_empty(),
         complete,
         faces: polygons.face_count(),
@@ -161,7 +185,7 @@ pub fn certify(
         exempt_faces: exempt.map(|(face, _)| face as u32).collect(),
         counts: found.counts,
         violations: found.violations,
-    })
+    }
 }
 
 fn place_key(violation: &Violation) -> Vec<usize> {
@@ -172,7 +196,7 @@ fn place_key(violation: &Violation) -> Vec<usize> {
 struct Map<'a> {
     polygons: PolygonView<'a>,
     uv: &'a [Vec2],
-    islands: Islands,
+    islands: &'a Islands,
     all_finite: bool,
 }
 

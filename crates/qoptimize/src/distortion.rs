@@ -26,9 +26,10 @@ mod tally;
 
 pub use benchmark::Benchmark;
 pub use error::MeasureError;
-pub(crate) use error::check_arrays;
+pub(crate) use error::{check, check_arrays};
 pub use faces::{FaceMeasures, measure_faces};
 use qembed::qmesh::{PolygonView, Vec2};
+use rayon::prelude::*;
 
 use self::corners::Surface;
 use self::statistics::{by_runs, quantile};
@@ -135,11 +136,22 @@ pub struct Distortion {
 /// # Errors
 /// UVs or positions that are not finite, or of no area at all; arrays that contradict each other. See [`MeasureError`].
 pub fn measure(polygons: PolygonView<'_>, corner_uv: &[Vec2]) -> Result<Distortion, MeasureError> {
-    error::check(polygons, corner_uv)?;
+    check(polygons, corner_uv)?;
+    measure_islands(polygons, corner_uv, &Islands::find(polygons, corner_uv))
+}
+
+/// As [`measure`], for arrays that are checked already and whose islands are known.
+pub(crate) fn measure_islands(
+    polygons: PolygonView<'_>,
+    corner_uv: &[Vec2],
+    islands: &Islands,
+) -> Result<Distortion, MeasureError> {
     let surface = Surface::new(polygons, corner_uv);
-    let ((islands, outline, crossings), (areas, benchmark)) =
-        rayon::join(|| find_islands(&surface), || (total_areas(&surface), benchmark::benchmark(&surface)));
-    let mirrored = mirrored_islands(&islands, &areas);
+    let ((outline, crossings), (areas, benchmark)) = rayon::join(
+        || outline(&surface, islands),
+        || (total_areas(&surface), benchmark::benchmark(&surface)),
+    );
+    let mirrored = mirrored_islands(islands, &areas);
     let mirror = |face: usize| if mirrored[islands.of_face[face] as usize] { -1.0 } else { 1.0 };
     let frame = Frame::new(surface, &areas, &mirror);
     if areas.space < f64::MIN_POSITIVE {
@@ -152,16 +164,15 @@ pub fn measure(polygons: PolygonView<'_>, corner_uv: &[Vec2]) -> Result<Distorti
     let parts = by_runs(polygons.face_count(), |run| Tally::of(&frame, run, &areas.faces));
     parts.into_iter().for_each(|part| tally.append(part));
     let mirrored = mirrored.iter().filter(|&&m| m).count();
-    Ok(summary(&surface, tally, &islands, mirrored, &outline, &crossings, benchmark))
+    Ok(summary(&surface, tally, islands, mirrored, &outline, &crossings, benchmark))
 }
 
-fn find_islands(surface: &Surface<'_>) -> (Islands, Outline, Crossings) {
-    let islands = Islands::find(surface.polygons, surface.uv);
+fn outline(surface: &Surface<'_>, islands: &Islands) -> (Outline, Crossings) {
     let outline = islands.outline();
     let at = |corner: u32| surface.uv(corner as usize);
     let segments = islands.boundary.iter().map(|&corner| islands.segment(corner, at)).collect();
     let crossings = find_crossings(segments, Scope::WithinIslands, 0);
-    (islands, outline, crossings)
+    (outline, crossings)
 }
 
 fn total_areas(surface: &Surface<'_>) -> Areas {
@@ -194,11 +205,11 @@ fn summary(
         let value = sum / tally.positive_weight;
         value.is_finite().then_some(value)
     };
-    let angle_error = fixed_sum(&tally.angle_terms);
+    let angle_error = fixed_sum(&tally.angle_terms, |term| term);
     let area_error_best_scale = best_scale(&tally.area_ratios);
     let mut area_terms = tally.area_ratios;
-    area_terms.iter_mut().for_each(|ratio| *ratio = (*ratio - 1.0).powi(2));
-    let area_error = fixed_sum(&area_terms);
+    area_terms.par_iter_mut().for_each(|ratio| *ratio = (*ratio - 1.0).powi(2));
+    let area_error = fixed_sum(&area_terms, |term| term);
     let (angle_quantiles, (area_quantiles, singular_ratio)) = rayon::join(
         || [0.5, 0.99].map(|fraction| quantile(&mut tally.angle_terms, fraction).unwrap_or(0.0)),
         || {
@@ -259,19 +270,18 @@ fn summary(
 }
 
 /// A sum of many terms: runs first, so that few roundings pile up.
-fn fixed_sum(terms: &[f64]) -> f64 {
-    terms.chunks(1024).map(|run| run.iter().sum::<f64>()).sum()
+fn fixed_sum(values: &[f64], term: impl Fn(f64) -> f64 + Sync) -> f64 {
+    let runs: Vec<f64> =
+        values.par_chunks(1024).map(|run| run.iter().map(|&value| term(value)).sum::<f64>()).collect();
+    runs.into_iter().sum()
 }
 
 /// Eq. 14 at its best scale: U scaled by s turns every ratio r into r x with x = 1/s², and Σ (r x − 1)² is smallest at
 /// x = Σr / Σr². Without a positive such x the infimum is at x → 0.
 fn best_scale(ratios: &[f64]) -> f64 {
-    let of = |term: &dyn Fn(f64) -> f64| -> f64 {
-        ratios.chunks(1024).map(|run| run.iter().map(|&r| term(r)).sum::<f64>()).sum()
-    };
-    let x = of(&|r| r) / of(&|r| r * r);
+    let x = fixed_sum(ratios, |r| r) / fixed_sum(ratios, |r| r * r);
     let x = if x > 0.0 { x } else { 0.0 };
-    of(&|r| (r * x - 1.0).powi(2))
+    fixed_sum(ratios, |r| (r * x - 1.0).powi(2))
 }
 
 impl Distortion {

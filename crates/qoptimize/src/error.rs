@@ -15,6 +15,9 @@ pub enum ParameterizeError {
     /// The observer asked to stop.
     #[error("cancelled")]
     Cancelled,
+    /// The observer said that time was up before there was a map.
+    #[error("time was up before there was a map")]
+    OutOfTime,
     /// λ1, λ2 of Eq. 11 out of range.
     #[error("λ1 = {lambda1} and λ2 = {lambda2}, but neither may be negative and 0 < λ1 + λ2 < 1 is needed")]
     BadLambda {

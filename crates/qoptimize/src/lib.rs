@@ -44,10 +44,11 @@ mod plane;
 mod preset;
 pub mod rounding;
 pub mod symmetry;
+mod timely;
 pub mod worst;
 
 pub use atlas::{Atlas, AtlasError, AtlasOptions, Density, Island, UpAxis};
-pub use certificate::{Certificate, Violation, ViolationKind, certify};
+pub use certificate::{Certificate, Violation, ViolationKind, certify, judge};
 pub use convexity::Exempt;
 pub use direct::{
     AngleTerm, BoundaryRepair, Continuation, Descent, DirectOptions, DirectReport, ScaffoldEnd, StartMethod,

@@ -12,12 +12,13 @@ use qembed::{
     embed, embed_classic,
 };
 
-use crate::certificate::{Certificate, certify};
+use crate::certificate::{Certificate, judge};
 use crate::direct::{self, Continuation, DirectOptions, DirectReport, Objective, Wishes};
-use crate::distortion::{Distortion, measure};
+use crate::distortion::Distortion;
 use crate::error::ParameterizeError;
 use crate::overlap::{OverlapOptions, OverlapReport, remove_overlaps};
 use crate::rounding::{self, Rounding};
+use crate::timely;
 
 /// Which way to a map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -164,11 +165,14 @@ pub struct RunRecord {
 /// The observer hears of one stage after the other, each from 0 to 1: those of [`simplify`] and [`embed`] (or
 /// [`embed_classic`]), then `"overlaps"` with [`Method::Paper`], then `"measure"`.
 ///
+/// When the observer [is late](Observer::is_late), [`Method::Direct`] and [`Method::Conformal`] end their descent with the map at hand
+/// ([`Stop::Cancelled`](crate::direct::Stop::Cancelled)), which is as valid as any other.
+///
 /// Overlaps may remain: [`Parameterization::certificate`] proves that there are none, or names them.
 ///
 /// # Errors
 /// What is wrong with the options or why the mesh is no disk; a linear system without an acceptable answer; cancelled
-/// by the observer. See [`ParameterizeError`].
+/// by the observer, or late before there was a map. See [`ParameterizeError`].
 pub fn parameterize(
     mesh: &QuadMesh,
     options: &Options,
@@ -193,21 +197,21 @@ pub fn parameterize_from(
 ) -> Result<Parameterization, ParameterizeError> {
     options.check()?;
     check_patch(mesh)?;
-    let unit_mesh = in_own_unit(mesh, options.mixing);
-    let (uv, mut record) = match options.method {
-        Method::Paper => paper(&unit_mesh, options, observer)?,
-        Method::Direct | Method::Conformal => direct(continuation, &unit_mesh, options, observer)?,
-        Method::Uniform => classic(&unit_mesh, Classic::Uniform, options, observer)?,
-        Method::MeanValue => classic(&unit_mesh, Classic::MeanValue, options, observer)?,
-        Method::Harmonic => classic(&unit_mesh, Classic::Harmonic, options, observer)?,
-        Method::Lscm => classic(&unit_mesh, Classic::Lscm, options, observer)?,
-    };
+    let (uv, mut record) = timely::within(observer, |observer| {
+        let mesh = &in_own_unit(mesh, options.mixing);
+        match options.method {
+            Method::Paper => paper(mesh, options, observer),
+            Method::Direct | Method::Conformal => direct(continuation, mesh, options, observer),
+            Method::Uniform => classic(mesh, Classic::Uniform, options, observer),
+            Method::MeanValue => classic(mesh, Classic::MeanValue, options, observer),
+            Method::Harmonic => classic(mesh, Classic::Harmonic, options, observer),
+            Method::Lscm => classic(mesh, Classic::Lscm, options, observer),
+        }
+    })?;
     let mut uv = mesh.to_corners(&uv);
     watch(observer, 0.0)?;
     record.rounding = rounding::to_precision(mesh.view(), &mut uv, options.precision)?;
-    let distortion = measure(mesh.view(), &uv)?;
-    watch(observer, 0.5)?;
-    let certificate = certify(mesh.view(), &uv, rounding::LISTED)?;
+    let (distortion, certificate) = judge(mesh.view(), &uv, rounding::LISTED)?;
     watch(observer, 1.0)?;
     Ok(Parameterization { uv, distortion, certificate, record })
 }

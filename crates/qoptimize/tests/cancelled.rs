@@ -1,4 +1,5 @@
-//! Cancelled at every place where the work can be cancelled: an error that says so, or a map that was done already.
+//! Cancelled at every place where the work can be cancelled: an error that says so, or a map that was done already. Late at every
+//! place that asks for the time: the best map so far, or none.
 
 #![allow(clippy::unwrap_used, reason = "a failing unwrap fails the test")]
 
@@ -6,7 +7,7 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use qoptimize::qembed::qmesh::charts::cut;
-use qoptimize::qembed::qmesh::{Polygons, QuadMesh, Seams, shapes};
+use qoptimize::qembed::qmesh::{Observer, Polygons, QuadMesh, Seams, shapes};
 use qoptimize::{AtlasError, AtlasOptions, Method, Options, atlas};
 
 /// Calls of the observer, counted; the one with number `stop` (from 0) and all later ones ask to stop.
@@ -102,4 +103,70 @@ fn charts_can_be_cancelled_too() {
     let result =
         atlas::unwrap_charts(polygons.view(), charts.charts, charts.repairs, &AtlasOptions::default(), &stop);
     assert_eq!(result.unwrap_err(), AtlasError::Cancelled);
+}
+
+/// An observer that is late from look `late` (from 0) on.
+struct Clock {
+    looks: AtomicUsize,
+    late: usize,
+}
+
+impl Observer for Clock {
+    fn progress(&self, _: &'static str, _: f64) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn is_late(&self) -> bool {
+        self.looks.fetch_add(1, Ordering::SeqCst) >= self.late
+    }
+}
+
+fn timed(
+    polygons: &Polygons,
+    options: &AtlasOptions,
+    late: usize,
+) -> (Result<atlas::Atlas, AtlasError>, usize) {
+    let clock = Clock { looks: AtomicUsize::new(0), late };
+    let result = atlas::unwrap(polygons.view(), &Seams::default(), options, &clock);
+    (result, clock.looks.into_inner())
+}
+
+/// Whenever time is up, there is a certified map that says so, or none because there was none yet; with more time the energy is
+/// never higher, and time that suffices changes nothing.
+#[test]
+fn time_may_be_up_at_any_moment() {
+    let mut maps = 0;
+    for (shape, polygons) in meshes() {
+        let islands = if shape == "a sphere and a tube" { 2 } else { 1 };
+        for (name, options) in options() {
+            let (whole, looks) = timed(&polygons, &options, usize::MAX);
+            let whole = whole.unwrap_or_else(|error| panic!("{name} of {shape}: {error}"));
+            assert_eq!(run(&polygons, &options, usize::MAX).0.unwrap().uv, whole.uv, "{name} of {shape}");
+            assert!(whole.islands.iter().all(|island| !island.ended_by_time), "{name} of {shape}");
+            let mut last = f64::INFINITY;
+            // With several islands, or several ways to cut, who looks when depends on the threads.
+            let in_turn = islands == 1 && options.max_stretch.is_none();
+            for late in (0..looks).step_by(if in_turn { 1 } else { 5 }) {
+                let map = match timed(&polygons, &options, late).0 {
+                    Ok(map) => map,
+                    Err(AtlasError::OutOfTime) if islands == 1 => continue,
+                    Err(error) => panic!("{name} of {shape}, look {late}: {error}"),
+                };
+                assert!(map.certificate.holds, "{name} of {shape}, look {late}: {}", map.certificate);
+                maps += 1;
+                if in_turn {
+                    let island = &map.islands[0];
+                    assert!(island.ended_by_time, "{name} of {shape}, look {late}");
+                    let energy = island.record.direct.as_ref().map_or(0.0, |direct| direct.descent.energy);
+                    assert!(energy <= last, "{name} of {shape}, look {late}");
+                    last = energy;
+                }
+            }
+            let enough = timed(&polygons, &options, looks).0.unwrap();
+            assert!(!in_turn || enough.uv == whole.uv, "{name} of {shape}");
+        }
+    }
+    assert!(maps > 60, "{maps} maps");
+    let (none, _) = timed(&meshes()[0].1, &options()[0].1, 0);
+    assert_eq!(none.unwrap_err(), AtlasError::OutOfTime);
 }

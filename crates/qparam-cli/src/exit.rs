@@ -21,6 +21,10 @@ pub enum Exit {
     Output = 6,
     /// UVs were written, but are not certified: flips or overlaps remain.
     Invalid = 7,
+    /// The time limit ended the work: the best map so far was written, and is valid.
+    TimeLimit = 8,
+    /// The time limit was over before there was a map.
+    OutOfTime = 9,
     /// Interrupted with ctrl-C.
     Interrupted = 130,
 }
@@ -43,6 +47,8 @@ Exit codes:
     5  the computation failed
     6  the output could not be written
     7  UVs were written, but flips or overlaps remain (check, measure --check: were found)
+    8  --time-limit ended the work: the best map so far is written and certified
+    9  --time-limit was over before there was a map; nothing is written
   130  interrupted";
 
 #[cfg(test)]
@@ -52,8 +58,11 @@ mod tests {
     /// `--help` names every code there is.
     #[test]
     fn the_table_is_complete() {
-        use Exit::{Computation, Done, Input, Interrupted, Invalid, Mesh, Output, Usage};
-        for exit in [Done, Usage, Input, Mesh, Computation, Output, Invalid, Interrupted] {
+        use Exit::{
+            Computation, Done, Input, Interrupted, Invalid, Mesh, OutOfTime, Output, TimeLimit, Usage,
+        };
+        let others = [TimeLimit, OutOfTime, Interrupted];
+        for exit in [Done, Usage, Input, Mesh, Computation, Output, Invalid].into_iter().chain(others) {
             let start = format!("{:>5}  ", exit.code());
             assert!(TABLE.lines().any(|line| line.starts_with(&start)), "{exit:?} is missing");
         }

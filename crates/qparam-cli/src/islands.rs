@@ -189,6 +189,7 @@ pub(crate) fn trade_text(trades: &[Trade], islands: &[Island], color: bool) -> S
             RefinementEnd::Reached => continue,
             RefinementEnd::NothingGained => "further cuts gained nothing",
             RefinementEnd::NothingToCut => "there is nothing left to cut",
+            RefinementEnd::OutOfTime => "the time limit ended it",
             _ => "it has as many cuts as an island may have",
         };
         text += &format!(

@@ -22,6 +22,7 @@ pub(crate) struct StageTime {
 /// An observer that draws, keeps the time, and hands on the request to stop.
 pub(crate) struct Watch<'a> {
     interrupt: &'a Interrupt,
+    deadline: Option<Instant>,
     bar: Option<ProgressBar>,
     clock: Mutex<Clock>,
 }
@@ -42,7 +43,12 @@ impl<'a> Watch<'a> {
             }
             bar
         });
-        Self { interrupt, bar, clock: Mutex::default() }
+        Self { interrupt, deadline: None, bar, clock: Mutex::default() }
+    }
+
+    /// Time is up at `deadline`, if there is one.
+    pub(crate) fn until(self, deadline: Option<Instant>) -> Self {
+        Self { deadline, ..self }
     }
 
     /// Clears the bar and returns the times, stages in order of their first call.
@@ -85,6 +91,10 @@ impl Observer for Watch<'_> {
             bar.set_position((fraction.clamp(0.0, 1.0) * TICKS as f64) as u64);
         }
         if self.interrupt.is_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    fn is_late(&self) -> bool {
+        self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
     }
 }
 

@@ -105,6 +105,8 @@ pub(crate) struct UnwrapReport<'a> {
     /// What became of the `vt` lines.
     pub(crate) uv_lines: UvWriteSummary,
     pub(crate) valid: bool,
+    /// Whether more time would have made another map.
+    pub(crate) stopped_by_time: bool,
     pub(crate) certificate: Certificate,
     pub(crate) distortion: &'a Distortion,
     pub(crate) worst_faces: Vec<WorstReport>,
@@ -271,6 +273,7 @@ fn direct_lines(direct: &DirectReport) -> Vec<String> {
         Stop::Converged => "converged",
         Stop::MaxSteps => "the bound on the steps ended it",
         Stop::Stalled => "no step helped any more",
+        Stop::Cancelled => "the time limit ended it",
         _ => "stopped early",
     };
     let steps = counted(descent.steps, "step");
@@ -317,6 +320,7 @@ fn repair_line(repair: &BoundaryRepair) -> String {
         ScaffoldEnd::Converged => "converged",
         ScaffoldEnd::MaxRounds => "the bound on the rounds ended it",
         ScaffoldEnd::Tight => "it came too close to itself, the last map before is kept",
+        ScaffoldEnd::Cancelled => "the time limit ended it",
         _ => "stopped early",
     };
     format!(

@@ -100,6 +100,11 @@ pub(crate) fn refused(error: &BuildError, input: &Input) -> Failure {
 pub(crate) fn no_atlas(error: &AtlasError, islands: usize, input: &Input) -> Failure {
     match error {
         AtlasError::Cancelled => Failure::interrupted(),
+        AtlasError::OutOfTime => Failure::new(
+            Exit::OutOfTime,
+            format!("{}: the time limit was over before there was a map: nothing was written", input.name),
+        )
+        .help("give it more seconds with --time-limit, or a coarser mesh"),
         AtlasError::Build(error) => refused(error, input),
         AtlasError::Island {
             mesh,

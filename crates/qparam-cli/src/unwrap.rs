@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use clap::ValueEnum;
 use qoptimize::atlas::{kept_seams, open, unwrap_charts};
@@ -45,6 +45,8 @@ struct Job<'a> {
     charts: Vec<Chart>,
     repairs: Repairs,
     target: Target,
+    /// When time is up.
+    deadline: Option<Instant>,
 }
 
 pub(crate) fn run(arguments: &UnwrapArgs, typed: &[String], io: &mut Streams<'_>) -> Result<Exit, Failure> {
@@ -81,7 +83,10 @@ pub(crate) fn run(arguments: &UnwrapArgs, typed: &[String], io: &mut Streams<'_>
     if options.map.symmetric {
         only_island("--symmetric", &charts, &input)?;
     }
-    let job = Job { arguments, options, input, charts, repairs, target };
+    // A limit beyond what the clock can count is none.
+    let limit = arguments.time_limit.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    let deadline = limit.and_then(|limit| start.checked_add(limit));
+    let mut job = Job { arguments, options, input, charts, repairs, target, deadline };
     let (result, stages) = timed(&mut timings.parameterize, || job.compute(io))?;
     timings.stages = stages;
     let html = page.as_ref().map(|_| job.page(&result, io)).transpose()?;
@@ -257,18 +262,25 @@ fn notes(arguments: &UnwrapArgs, typed: &[String]) -> Vec<String> {
 }
 
 impl Job<'_> {
-    fn compute(&self, io: &Streams<'_>) -> Result<(Atlas, Vec<StageTime>), Failure> {
-        let watch = Watch::new(io.interrupt, io.stderr_is_terminal && !self.arguments.quiet);
+    /// The charts are lent for the time of the work: those of large meshes are large.
+    fn compute(&mut self, io: &Streams<'_>) -> Result<(Atlas, Vec<StageTime>), Failure> {
+        let islands = self.charts.len();
+        let needed_as_they_are = self.options.max_stretch.is_some();
+        let charts = if needed_as_they_are { self.charts.clone() } else { std::mem::take(&mut self.charts) };
+        let watch =
+            Watch::new(io.interrupt, io.stderr_is_terminal && !self.arguments.quiet).until(self.deadline);
         let polygons = self.input.document.view();
-        let work =
-            || unwrap_charts(polygons, self.charts.clone(), self.repairs.clone(), &self.options, &watch);
+        let work = || unwrap_charts(polygons, charts, self.repairs.clone(), &self.options, &watch);
         let result = io.interrupt.during(Phase::Watched, || threads::with(self.arguments.map.threads, work));
         let stages = watch.finish();
         let result = result?;
         if io.interrupt.is_requested() {
             return Err(Failure::interrupted());
         }
-        let result = result.map_err(|error| no_atlas(&error, self.charts.len(), &self.input))?;
+        let mut result = result.map_err(|error| no_atlas(&error, islands, &self.input))?;
+        if !needed_as_they_are {
+            self.charts = std::mem::take(&mut result.charts);
+        }
         Ok((result, stages))
     }
 
@@ -343,6 +355,7 @@ impl Job<'_> {
             output: self.target.to_string(),
             uv_lines,
             valid,
+            stopped_by_time: result.islands.iter().any(|island| island.ended_by_time),
             certificate,
             distortion: &result.distortion,
             worst_faces: worst::find(&self.input, &self.charts, result, &self.options, arguments.worst)
@@ -371,8 +384,11 @@ impl Job<'_> {
             let page = page.unwrap_or_default();
             io.report(aside, &format!("{text}UVs written to {}\n{page}", report.output))?;
         }
+        if report.stopped_by_time && !(arguments.json && aside) {
+            io.say_err("note: the time limit ended the work: this is the best map so far\n");
+        }
         if valid {
-            return Ok(Exit::Done);
+            return Ok(if report.stopped_by_time { Exit::TimeLimit } else { Exit::Done });
         }
         if !(arguments.json && aside) {
             io.say_err(&format!(

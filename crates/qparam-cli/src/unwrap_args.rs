@@ -65,6 +65,14 @@ pub(crate) struct UnwrapArgs {
     #[arg(long, value_name = "FILE", help_heading = "Method")]
     pub(crate) pins: Option<PathBuf>,
 
+    /// After so many seconds, write the best map so far
+    ///
+    /// Counted from the start of the command. A descent ends with the map at hand, which is certified like any other, and the exit code is 8; of
+    /// several islands those that have no map yet are left with their convex start. Where there is no map at all, the exit
+    /// code is 9. Measuring and writing come on top, and the maps that --report adds.
+    #[arg(long, value_name = "SECONDS", value_parser = not_negative, allow_negative_numbers = true, help_heading = "Method")]
+    pub(crate) time_limit: Option<f64>,
+
     /// Name this many of the worst faces, each with what forces it
     #[arg(
         long,
@@ -230,6 +238,8 @@ Exit codes:
     5  the computation failed
     6  the output could not be written
     7  UVs were written, but flips or overlaps remain
+    8  --time-limit ended the work: the best map so far is written and certified
+    9  --time-limit was over before there was a map; nothing is written
   130  interrupted";
 
 impl UnwrapArgs {

@@ -47,6 +47,34 @@ fn an_interruption_at_any_moment_leaves_all_or_nothing() {
     }
 }
 
+/// A limit that is over before the work begins: code 9, and no file; of two islands there are the convex starts, code 8, and the report
+/// says so. A limit that is never reached changes nothing.
+#[test]
+fn a_time_limit_leaves_the_best_map_so_far_or_none() {
+    let folder = Folder::new();
+    folder.write("in.obj", hill(6));
+    folder.write("two.obj", CUBE.to_owned() + "v 5 0 0\nv 6 0 0\nv 6 1 0\nv 5 1 0\nf 9 10 11 12\n");
+    let run = folder.qparam(&["unwrap", "in.obj", "--time-limit", "0", "--json"]).code(9);
+    assert_eq!(run.json()["exit_code"], 9);
+    assert!(run.stderr.contains("the time limit was over before there was a map"), "{}", run.stderr);
+    assert_eq!(folder.names(), ["in.obj", "two.obj"]);
+
+    let run = folder.qparam(&["unwrap", "two.obj", "--time-limit", "0", "--json"]).code(8);
+    let report = run.json();
+    assert_eq!((&report["stopped_by_time"], &report["valid"]), (&true.into(), &true.into()));
+    assert!(report["islands"][0]["fallback"].as_str().is_some_and(|why| why.contains("time was up")));
+    assert!(run.stderr.contains("the time limit ended the work"), "{}", run.stderr);
+    folder.qparam(&["check", "two_uv.obj"]).code(0);
+
+    let report = folder.qparam(&["unwrap", "in.obj", "-o", "a.obj", "--json"]).code(0).json();
+    assert_eq!(report["stopped_by_time"], false);
+    assert!(report["peak_memory_bytes"].as_u64().is_none_or(|bytes| bytes > 1 << 20));
+    for limit in ["1e9", "1e300"] {
+        folder.qparam(&["unwrap", "in.obj", "-o", "b.obj", "--time-limit", limit]).code(0);
+        assert_eq!(folder.read("a.obj"), folder.read("b.obj"));
+    }
+}
+
 /// With less and less memory: a result that is whole, or the process ends without one. Never half a file.
 #[cfg(target_os = "linux")]
 #[test]

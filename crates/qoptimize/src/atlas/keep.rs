@@ -69,6 +69,7 @@ pub(super) fn solve(
             certificate: None,
             record,
             fallback: None,
+            out_of_time: false,
             refinement: None,
         });
     }

@@ -98,6 +98,9 @@ pub enum AtlasError {
     /// The observer asked to stop.
     #[error("cancelled")]
     Cancelled,
+    /// The observer said that time was up before the only island had a map.
+    #[error("time was up before there was a map")]
+    OutOfTime,
     /// No charts can be made of the polygons.
     #[error(transparent)]
     Build(#[from] BuildError),

@@ -7,7 +7,7 @@ use qembed::qmesh::{EdgeId, Observer, QuadMesh, VertexData, VertexId};
 use rayon::prelude::*;
 
 use super::solve::{Solved, among_others, of_many};
-use super::stretch::stretch;
+use super::stretch::{quantile, stretch};
 use super::{AtlasError, AtlasOptions, tell};
 use crate::direct::Continuation;
 use crate::parameterize::Options;
@@ -57,6 +57,8 @@ pub enum RefinementEnd {
     NothingToCut,
     /// It has been cut as often as islands are.
     TooManyCuts,
+    /// Time was up.
+    OutOfTime,
 }
 
 /// Cuts each island from the inside to its boundary and maps it again, until no island is stretched beyond
@@ -82,7 +84,7 @@ fn refine_one(
     map: &Options,
     observer: &dyn Observer,
 ) -> Result<Solved, AtlasError> {
-    let mut value = stretch(&island.chart.mesh, &island.uv).quantile;
+    let mut value = quantile(&island.chart.mesh, &island.uv);
     if value <= bound {
         return Ok(island);
     }
@@ -90,6 +92,10 @@ fn refine_one(
     // The least stretched of all, for when the bound is out of reach.
     let mut least = (value, island.clone(), 0);
     while refinement.cuts.len() < MOST_CUTS {
+        if observer.is_late() {
+            refinement.end = RefinementEnd::OutOfTime;
+            break;
+        }
         if refinement.cuts.len() >= least.2 + PATIENCE {
             refinement.end = RefinementEnd::NothingGained;
             break;
@@ -130,7 +136,7 @@ fn best_cut(
                 return Ok(None);
             }
             let next = among_others(pieces.remove(0), &mut Continuation::default(), map, &Within(observer))?;
-            let stretch = stretch(&next.chart.mesh, &next.uv).quantile;
+            let stretch = quantile(&next.chart.mesh, &next.uv);
             let length = edges.iter().map(|&edge| mesh.edge_length(edge)).sum();
             Ok(Some((Cut { edges: edges.len(), length, stretch }, next)))
         })
@@ -151,6 +157,10 @@ struct Within<'a>(&'a dyn Observer);
 impl Observer for Within<'_> {
     fn progress(&self, _: &'static str, _: f64) -> ControlFlow<()> {
         self.0.progress("cuts", 0.5)
+    }
+
+    fn is_late(&self) -> bool {
+        self.0.is_late()
     }
 }
 

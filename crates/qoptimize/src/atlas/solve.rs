@@ -7,12 +7,11 @@ use qembed::qmesh::obj::UvPrecision;
 use qembed::qmesh::{Chart, CornerData, Observer, Vec2};
 use rayon::prelude::*;
 
-use super::refine::Refinement;
-use super::stretch::stretch;
-use super::{AtlasError, AtlasOptions, Island, keep, measures};
+use super::refine::{Refinement, RefinementEnd};
+use super::{AtlasError, AtlasOptions, Island, keep, measures, stretch};
 use crate::certificate::Certificate;
 use crate::convexity::Exempt;
-use crate::direct::{Continuation, find_start};
+use crate::direct::{Continuation, Stop, find_start};
 use crate::distortion::{Distortion, measure};
 use crate::error::ParameterizeError;
 use crate::parameterize::{Method, Options, RunRecord, parameterize_from};
@@ -28,6 +27,8 @@ pub(super) struct Solved {
     pub(super) certificate: Option<Certificate>,
     pub(super) record: RunRecord,
     pub(super) fallback: Option<String>,
+    /// Whether time was up before it had a map of its method.
+    pub(super) out_of_time: bool,
     /// How it was cut further, where that was asked for and needed.
     pub(super) refinement: Option<Refinement>,
 }
@@ -81,6 +82,10 @@ impl Observer for Shared<'_> {
     fn progress(&self, _: &'static str, _: f64) -> ControlFlow<()> {
         self.observer.progress("islands", self.done.load(Ordering::Relaxed) as f64 / self.total as f64)
     }
+
+    fn is_late(&self) -> bool {
+        self.observer.is_late()
+    }
 }
 
 /// The only chart: errors are errors.
@@ -98,6 +103,7 @@ pub(super) fn alone(
             certificate: Some(map.certificate),
             record: map.record,
             fallback: None,
+            out_of_time: false,
             refinement: None,
         }),
         Err(error) => Err(refusal(chart, error)),
@@ -105,14 +111,16 @@ pub(super) fn alone(
 }
 
 fn refusal(chart: Chart, error: ParameterizeError) -> AtlasError {
-    if error == ParameterizeError::Cancelled {
-        return AtlasError::Cancelled;
+    match error {
+        ParameterizeError::Cancelled => return AtlasError::Cancelled,
+        ParameterizeError::OutOfTime => return AtlasError::OutOfTime,
+        _ => {}
     }
     let first_face = chart.faces.first().copied().unwrap_or(0);
     AtlasError::Island { first_face, mesh: Box::new(chart.mesh), error }
 }
 
-/// One chart of several: what the method cannot do, another one does.
+/// One chart of several: what the method cannot do, another one does; the convex start does where there is no time left.
 pub(super) fn among_others(
     chart: Chart,
     before: &mut Continuation,
@@ -124,10 +132,13 @@ pub(super) fn among_others(
     }
     let error = match alone(chart.clone(), before, options, observer) {
         Err(AtlasError::Island { error, .. }) => error,
+        Err(AtlasError::OutOfTime) => ParameterizeError::OutOfTime,
         other => return other,
     };
+    let out_of_time = error == ParameterizeError::OutOfTime;
     let direct = Options { method: Method::Direct, ..options.clone() };
     if options.method != Method::Direct
+        && !out_of_time
         && let Ok(solved) = alone(chart.clone(), &mut Continuation::default(), &direct, observer)
     {
         return Ok(Solved { fallback: Some(error.to_string()), ..solved });
@@ -136,7 +147,8 @@ pub(super) fn among_others(
         Ok(uv) => {
             let distortion = measure(chart.mesh.view(), &uv).ok();
             let (record, fallback) = (RunRecord::default(), Some(error.to_string()));
-            Ok(Solved { chart, uv, distortion, certificate: None, record, fallback, refinement: None })
+            let (certificate, refinement) = (None, None);
+            Ok(Solved { chart, uv, distortion, certificate, record, fallback, out_of_time, refinement })
         }
         Err(error) => Err(refusal(chart, error)),
     }
@@ -152,22 +164,31 @@ fn convex(chart: &Chart, observer: &dyn Observer) -> Result<CornerData<Vec2>, Pa
 }
 
 impl Solved {
-    pub(super) fn island(self) -> Island {
+    /// Whether more time would have made another map of it.
+    fn is_ended_by_time(&self) -> bool {
+        let descent = self.record.direct.as_ref().map(|direct| direct.descent.stop);
+        let refinement = self.refinement.as_ref().map(|refinement| refinement.end);
+        self.out_of_time || descent == Some(Stop::Cancelled) || refinement == Some(RefinementEnd::OutOfTime)
+    }
+
+    pub(super) fn island(self) -> (Island, Chart) {
         let mesh = &self.chart.mesh;
         let [area, uv_area] = measures::areas(mesh, &self.uv);
-        Island {
+        let island = Island {
             first_face: self.chart.faces.first().copied().unwrap_or(0),
             faces: mesh.face_count(),
             boundary_loops: mesh.boundary_loops().len(),
             area,
             uv_area,
-            stretch: stretch(mesh, &self.uv).quantile,
+            stretch: stretch::quantile(mesh, &self.uv),
             symmetric_dirichlet: self.distortion.as_ref().and_then(|found| found.symmetric_dirichlet),
             flipped_corners: self.distortion.as_ref().map_or(0, |found| found.flipped_corners),
             boundary_crossings: self.distortion.as_ref().map_or(0, |found| found.boundary_crossings),
+            ended_by_time: self.is_ended_by_time(),
             fallback: self.fallback,
             refinement: self.refinement,
             record: self.record,
-        }
+        };
+        (island, self.chart)
     }
 }

@@ -1,6 +1,7 @@
 //! How far an island is stretched, and where most.
 
-use qembed::qmesh::{CornerId, QuadMesh, Vec2, VertexId};
+use qembed::qmesh::{CornerId, Id, QuadMesh, Vec2, VertexId};
+use rayon::prelude::*;
 
 /// The share of the area that may be stretched more.
 const TAIL: f64 = 0.01;
@@ -24,25 +25,14 @@ pub struct StretchMeasure {
 /// triangles that are not positive count as infinite.
 #[must_use]
 pub fn stretch(mesh: &QuadMesh, uv: &[Vec2]) -> StretchMeasure {
-    let [space, plane] = super::measures::areas(mesh, uv);
-    let scale = if plane > 0.0 { (space / plane).sqrt() } else { 1.0 };
-    let mut values: Vec<(f64, f64)> = Vec::with_capacity(mesh.corner_count());
+    let mut values = corner_stretches(mesh, uv);
     let mut around = mesh.vertex_data(|_| Around::default());
-    for corner in mesh.corners() {
-        let Some((stretch, area)) = corner_stretch(mesh, uv, corner, scale) else { continue };
-        values.push((stretch, area));
+    for (corner, &(stretch, area)) in mesh.corners().zip(&values).filter(|(_, value)| value.1 > 0.0) {
         let here = &mut around[mesh.vertex(corner)];
         here.stretch += stretch.min(1e9) * area;
         here.area += area;
         here.plane += plane_area(mesh, uv, corner);
     }
-    values.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let total: f64 = values.iter().map(|value| value.1).sum();
-    let mut passed = 0.0;
-    let beyond = values.iter().find(|value| {
-        passed += value.1;
-        passed > TAIL * total
-    });
     let largest = |inside: bool, of: fn(&Around) -> f64| {
         let wanted = around
             .entries()
@@ -55,11 +45,50 @@ pub fn stretch(mesh: &QuadMesh, uv: &[Vec2]) -> StretchMeasure {
     let stretched: fn(&Around) -> f64 = |around| around.stretch / around.area;
     let vertex = |found: Option<(VertexId, f64)>| found.map(|(vertex, _)| vertex);
     StretchMeasure {
-        quantile: beyond.map_or(1.0, |value| value.0),
+        quantile: upper_quantile(&mut values),
         worst: vertex(largest(false, stretched)).unwrap_or(VertexId(0)),
         worst_inside: vertex(largest(true, stretched)),
         smallest_inside: vertex(largest(true, |around| -around.plane / around.area)),
     }
+}
+
+/// [`StretchMeasure::quantile`] alone.
+pub(super) fn quantile(mesh: &QuadMesh, uv: &[Vec2]) -> f64 {
+    upper_quantile(&mut corner_stretches(mesh, uv))
+}
+
+/// Stretch and area in space of each corner triangle; the area is 0 where there is none.
+fn corner_stretches(mesh: &QuadMesh, uv: &[Vec2]) -> Vec<(f64, f64)> {
+    let [space, plane] = super::measures::areas(mesh, uv);
+    let scale = if plane > 0.0 { (space / plane).sqrt() } else { 1.0 };
+    let corners = (0..mesh.corner_count()).into_par_iter().with_min_len(4096);
+    corners
+        .map(|corner| corner_stretch(mesh, uv, CornerId::from_index(corner), scale).unwrap_or((1.0, 0.0)))
+        .collect()
+}
+
+/// What all but [`TAIL`] of the area stays below. Reorders the values: by halves, so that only the half is looked at further
+/// in which the answer lies.
+fn upper_quantile(values: &mut [(f64, f64)]) -> f64 {
+    let area = |values: &[(f64, f64)]| values.iter().map(|value| value.1).sum::<f64>();
+    let mut left = TAIL * area(values);
+    if left <= 0.0 {
+        return 1.0;
+    }
+    let mut rest = values;
+    while rest.len() > 1 {
+        let middle = rest.len() / 2;
+        rest.select_nth_unstable_by(middle, |a, b| b.0.total_cmp(&a.0));
+        let (above, below) = rest.split_at_mut(middle);
+        let passed = area(above);
+        rest = if passed > left {
+            above
+        } else {
+            left -= passed;
+            below
+        };
+    }
+    rest.first().map_or(1.0, |value| value.0)
 }
 
 /// Sums over the corners around a vertex.
@@ -106,4 +135,30 @@ fn corner_stretch(mesh: &QuadMesh, uv: &[Vec2], corner: CornerId, scale: f64) ->
     let root = (squares * squares - 4.0 * det * det).max(0.0).sqrt();
     let largest = (0.5 * (squares + root)).sqrt();
     Some((largest.max(largest / det), area))
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        /// The first value, from the largest down, with which the areas passed exceed the tail.
+        #[test]
+        fn the_quantile_is_that_of_sorted_values(values in prop::collection::vec((0u32..50, 0u32..40), 1..400)) {
+            // Areas in 64ths, so that their sums are exact in any order.
+            let mut values: Vec<(f64, f64)> =
+                values.into_iter().map(|(s, a)| (f64::from(s), f64::from(a) / 64.0)).collect();
+            let mut sorted = values.clone();
+            sorted.sort_by(|a, b| b.0.total_cmp(&a.0));
+            let total: f64 = values.iter().map(|value| value.1).sum();
+            let mut passed = 0.0;
+            let expected = sorted.iter().find(|value| {
+                passed += value.1;
+                passed > TAIL * total
+            });
+            prop_assert_eq!(upper_quantile(&mut values), expected.map_or(1.0, |value| value.0));
+        }
+    }
 }

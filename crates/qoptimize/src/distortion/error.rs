@@ -56,7 +56,7 @@ pub enum MeasureError {
 }
 
 /// Everything that the measures rely on.
-pub(super) fn check(polygons: PolygonView<'_>, uv: &[Vec2]) -> Result<(), MeasureError> {
+pub(crate) fn check(polygons: PolygonView<'_>, uv: &[Vec2]) -> Result<(), MeasureError> {
     check_arrays(polygons, uv)?;
     if let Some(corner) = uv.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
         return Err(MeasureError::NonFinite { corner });

@@ -36,15 +36,17 @@ pub(crate) struct Edges {
 
 impl Edges {
     pub(crate) fn count(view: PolygonView<'_>) -> Self {
-        let faces = (0..view.face_count()).map(|face| view.face(face));
-        let mut edges: Vec<[u32; 2]> = faces.flat_map(sides).map(ordered).collect();
-        edges.par_sort_unstable();
-        let groups = || edges.chunk_by(|a, b| a == b);
+        let edges = Pairs::of_edges(view);
+        let mut counts = [0; 2];
+        edges.groups().for_each(|(_, count)| {
+            counts[0] += 1;
+            counts[1] += usize::from(count == 1);
+        });
         let mut used = vec![false; view.positions.len()];
         view.corner_vertex.iter().for_each(|&vertex| used[vertex as usize] = true);
         Self {
-            edges: groups().count(),
-            boundary_edges: groups().filter(|group| group.len() == 1).count(),
+            edges: counts[0],
+            boundary_edges: counts[1],
             unused_vertices: used.iter().filter(|&&used| !used).count(),
         }
     }
@@ -52,19 +54,16 @@ impl Edges {
 
 impl Connectivity {
     pub(crate) fn new(view: PolygonView<'_>) -> Self {
-        let faces = || (0..view.face_count()).map(|face| view.face(face));
-        let mut edges: Vec<[u32; 2]> = faces().flat_map(sides).map(ordered).collect();
-        edges.sort_unstable();
         let mut result = Self::default();
         let mut valence = vec![0_usize; view.positions.len()];
         let mut boundary = vec![false; view.positions.len()];
-        for group in edges.chunk_by(|a, b| a == b) {
+        for (ends, count) in Pairs::of_edges(view).groups() {
             result.edges += 1;
-            result.boundary_edges += usize::from(group.len() == 1);
-            result.nonmanifold_edges += usize::from(group.len() > 2);
-            for &vertex in &group[0] {
+            result.boundary_edges += usize::from(count == 1);
+            result.nonmanifold_edges += usize::from(count > 2);
+            for vertex in ends {
                 valence[vertex as usize] += 1;
-                boundary[vertex as usize] |= group.len() == 1;
+                boundary[vertex as usize] |= count == 1;
             }
         }
         for (&valence, &boundary) in valence.iter().zip(&boundary).filter(|&(&valence, _)| valence > 0) {
@@ -112,16 +111,74 @@ fn ordered([a, b]: [u32; 2]) -> [u32; 2] {
     [a.min(b), a.max(b)]
 }
 
-fn repeated_faces(view: PolygonView<'_>) -> usize {
-    let mut faces: Vec<Vec<u32>> = (0..view.face_count())
-        .map(|face| {
-            let mut vertices = view.face(face).to_vec();
-            vertices.sort_unstable();
-            vertices
+/// Pairs of vertices, those of the same lower vertex together: in linear time, where sorting them all would take longer than the map of a
+/// plain mesh takes to be written.
+struct Pairs {
+    start: Vec<u32>,
+    /// The higher vertices, ascending for each lower one.
+    high: Vec<u32>,
+}
+
+impl Pairs {
+    fn of_edges(view: PolygonView<'_>) -> Self {
+        let faces = || (0..view.face_count()).map(|face| view.face(face));
+        Self::new(view.positions.len(), || faces().flat_map(sides).map(ordered))
+    }
+
+    fn new<I: Iterator<Item = [u32; 2]>>(vertices: usize, pairs: impl Fn() -> I) -> Self {
+        // Two places ahead, so that the starts, moved on while pairs find their places, end up where they belong.
+        let mut start = vec![0_u32; vertices + 2];
+        let mut count = 0;
+        for [low, _] in pairs() {
+            start[low as usize + 2] += 1;
+            count += 1;
+        }
+        for vertex in 2..vertices + 2 {
+            start[vertex] += start[vertex - 1];
+        }
+        let mut high = vec![0; count];
+        for [low, other] in pairs() {
+            let place = &mut start[low as usize + 1];
+            high[*place as usize] = other;
+            *place += 1;
+        }
+        start.pop();
+        start.windows(2).for_each(|range| high[range[0] as usize..range[1] as usize].sort_unstable());
+        Self { start, high }
+    }
+
+    /// Each pair that there is, and how often.
+    fn groups(&self) -> impl Iterator<Item = ([u32; 2], usize)> + '_ {
+        self.start.windows(2).enumerate().flat_map(|(low, range)| {
+            let high = &self.high[range[0] as usize..range[1] as usize];
+            high.chunk_by(|a, b| a == b).map(move |same| ([low as u32, same[0]], same.len()))
         })
-        .collect();
-    faces.sort_unstable();
-    faces.windows(2).filter(|pair| pair[0] == pair[1]).count()
+    }
+}
+
+fn repeated_faces(view: PolygonView<'_>) -> usize {
+    let sorted = |face: usize| {
+        let mut vertices = view.face(face).to_vec();
+        vertices.sort_unstable();
+        vertices
+    };
+    // Only faces with the same sum can have the same vertices. The factors are those of SplitMix64.
+    let mixed = |vertex: u32| {
+        let mixed = u64::from(vertex).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(31);
+        mixed.wrapping_mul(0xbf58_476d_1ce4_e5b9)
+    };
+    let sum = |face: usize| view.face(face).iter().map(|&vertex| mixed(vertex)).fold(0, u64::wrapping_add);
+    let mut faces: Vec<(u64, u32)> =
+        (0..view.face_count()).into_par_iter().map(|face| (sum(face), face as u32)).collect();
+    faces.par_sort_unstable();
+    let alike = faces.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1);
+    alike
+        .map(|group| {
+            let mut group: Vec<Vec<u32>> = group.iter().map(|&(_, face)| sorted(face as usize)).collect();
+            group.sort_unstable();
+            group.windows(2).filter(|pair| pair[0] == pair[1]).count()
+        })
+        .sum()
 }
 
 /// An interior vertex with two edges lies in two faces that have both its edges in common.
@@ -134,13 +191,9 @@ fn doublets(view: PolygonView<'_>, valence: &[usize], boundary: &[bool]) -> usiz
 }
 
 fn shared_diagonals(view: PolygonView<'_>) -> usize {
-    let mut diagonals: Vec<[u32; 2]> = (0..view.face_count())
-        .map(|face| view.face(face))
-        .filter(|face| face.len() == 4)
-        .flat_map(|face| [ordered([face[0], face[2]]), ordered([face[1], face[3]])])
-        .collect();
-    diagonals.sort_unstable();
-    diagonals.chunk_by(|a, b| a == b).filter(|group| group.len() > 1).count()
+    let quads = || (0..view.face_count()).map(|face| view.face(face)).filter(|face| face.len() == 4);
+    let diagonals = || quads().flat_map(|face| [ordered([face[0], face[2]]), ordered([face[1], face[3]])]);
+    Pairs::new(view.positions.len(), diagonals).groups().filter(|&(_, count)| count > 1).count()
 }
 
 #[cfg(test)]

@@ -6,11 +6,18 @@ use rayon::prelude::*;
 
 use crate::SolveError;
 
+/// Values that are looked through at once.
+const CHUNK: usize = 1 << 14;
+
 pub(crate) fn check_matrix(matrix: &CsrMatrix<f64>) -> Result<(), SolveError> {
     check_square(matrix.nrows(), matrix.ncols())?;
-    let position =
-        matrix.values().par_iter().with_min_len(1 << 16).position_first(|value| !value.is_finite());
-    if let Some(place) = position {
+    let is_bad = |value: &f64| !value.is_finite();
+    let values = matrix.values();
+    // Chunks, since a search that may end at any item asks after each.
+    let chunk = values.par_chunks(CHUNK).position_first(|chunk| chunk.iter().any(is_bad));
+    let place =
+        chunk.and_then(|chunk| Some(chunk * CHUNK + values[chunk * CHUNK..].iter().position(is_bad)?));
+    if let Some(place) = place {
         let row = matrix.row_offsets().partition_point(|&start| start <= place) - 1;
         return Err(SolveError::NonFiniteEntry { row, column: matrix.col_indices()[place] });
     }

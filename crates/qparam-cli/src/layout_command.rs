@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::measure::without_uv;
 use crate::output::Target;
-use crate::picture::color::{Linear, category};
+use crate::picture::color::{Linear, pale};
 use crate::picture::{Canvas, HeatScale, Layout, Legend, Seams};
 use crate::picture_args::{LayoutArgs, LayoutStyle};
 use crate::render_command::{check_range, clay, keep_inputs, measured, no_picture, tell};
@@ -46,10 +46,7 @@ fn draw(arguments: &LayoutArgs, input: &Input, uv: &[Vec2]) -> Result<Drawn, Fai
         (Some(scale), Some(measure), _) => scale.colors(measure.values(&measures), &measures.flipped),
         (_, _, LayoutStyle::Plain) => vec![clay(); polygons.face_count()],
         // Pale, so that the colours of the seams stand out.
-        _ => {
-            let pale = |&island: &u32| Linear([1.0; 3]).mix(category(island as usize), 0.4);
-            measures.island.iter().map(pale).collect()
-        }
+        _ => measures.island.iter().map(|&island| pale(island as usize)).collect(),
     };
     let seams = (!arguments.no_seams).then(|| Seams::find(polygons, uv, &measures.island));
     let has_flipped = measures.flipped.contains(&true);

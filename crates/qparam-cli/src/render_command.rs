@@ -12,7 +12,7 @@ use crate::failure::Failure;
 use crate::input::{Input, read_bytes};
 use crate::measure::without_uv;
 use crate::output::Target;
-use crate::picture::color::{Linear, category, oklch};
+use crate::picture::color::{Linear, category, oklch, pale};
 use crate::picture::materials::{Look, MaterialNames, read_library};
 use crate::picture::{
     Canvas, HeatScale, Ink, Legend, Lines, Measure, Model, Paint, PictureError, Projection, Rgba, Seams,
@@ -210,7 +210,8 @@ impl Surface {
                 Kind::Checker { per_unit: (arguments.checks / uv_area(document.view(), &self.uv)).sqrt() }
             }
             (StyleChoice::Islands, Some(measures)) => {
-                Kind::Faces(measures.island.iter().map(|&island| category(island as usize)).collect())
+                let color = if arguments.seams { pale } else { category };
+                Kind::Faces(measures.island.iter().map(|&island| color(island as usize)).collect())
             }
             (style, Some(measures)) if style.measure().is_some() => {
                 let measure = style.measure().unwrap_or(Measure::Angle);

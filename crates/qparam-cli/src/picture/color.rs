@@ -101,6 +101,12 @@ pub fn category(n: usize) -> Linear {
     oklch(lightness, 0.15, (250.0 + GOLDEN_ANGLE * (n % 1000) as f32) % 360.0)
 }
 
+/// The colour of island `n` beside seams that have the colours of [`category`].
+#[must_use]
+pub fn pale(n: usize) -> Linear {
+    Linear([1.0; 3]).mix(category(n), 0.4)
+}
+
 impl Rgba {
     /// Nothing at all.
     pub const CLEAR: Self = Self([0, 0, 0, 0]);

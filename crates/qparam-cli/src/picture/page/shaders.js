@@ -106,7 +106,7 @@ void main() {
     base = texture(uRamp, vec2(clamp((x - uRange.x) / (uRange.y - uRange.x), 0.004, 0.996), 0.5)).rgb;
     if (vMeasure.w > 0.0) base = uFlipped;
   }
-  if (uStyle == 4) base = texelFetch(uPalette, ivec2(int(vFace.y & 255u) % 48, 0), 0).rgb;
+  if (uStyle == 4) base = mix(vec3(1.0), texelFetch(uPalette, ivec2(int(vFace.y & 255u) % 48, 0), 0).rgb, 0.45);
   float shade = 1.0;
   if (!uFlat) {
     vec3 n = normalize(vNormal) * (gl_FrontFacing ? 1.0 : -1.0);

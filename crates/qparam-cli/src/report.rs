@@ -266,6 +266,7 @@ fn direct_lines(direct: &DirectReport) -> Vec<String> {
     let start = match direct.start {
         StartMethod::Tutte => "Tutte's embedding",
         StartMethod::Torsion => "Tutte's embedding with torsion weights",
+        StartMethod::CoarseToFine => "from coarser meshes",
         _ => "untangled",
     };
     let descent = &direct.descent;

@@ -5,22 +5,24 @@ use crate::ParameterizeError;
 use crate::plane::outline_flaws;
 use crate::qmesh::Vec2;
 
+use super::coarse::{Sizes, arrive};
 use super::embed::{Map, Run};
 use super::hessian::Hessian;
 use super::newton::descend;
 use super::rest::Rest;
 use super::scale::to_best_scale;
-use super::{DescentError, DirectReport, Start};
+use super::start::{Origin, judge};
+use super::{DescentError, DirectReport, Start, StartMethod};
 
 /// What maps of one surface with a free boundary hand on to each other: see [`embed_from`](super::embed_from).
 #[derive(Default)]
 pub struct Continuation(Option<Kept>);
 
 struct Kept {
-    start: Start,
+    origin: Origin,
     rest: Rest,
     hessian: Hessian,
-    /// The start at true scale, in units of `rest`.
+    /// The first map at true scale, in units of `rest`.
     first: Vec<Vec2>,
     /// The last map of least energy, whether its boundary was clear of itself or not.
     last: Option<Vec<Vec2>>,
@@ -54,14 +56,12 @@ impl Continuation {
             descend(&kept.rest, &mut kept.hessian, &mut uv, run.objective, run.options, run.observer)
         })?;
         kept.last = Some(uv.clone());
-        let mut report = run.report(&kept.start, descent);
-        let mut clear = kept
-            .cleared
-            .clone()
-            .filter(|cleared| outline_flaws(run.mesh, cleared) == 0)
-            .unwrap_or_else(|| kept.first.clone());
-        to_best_scale(&kept.rest, run.objective, &mut clear);
-        report.boundary_repair = run.problem(&kept.rest).clear(&clear, &mut uv, &mut report.descent)?;
+        let mut report = run.report(kept.origin, descent);
+        if outline_flaws(run.mesh, &uv) > 0 {
+            let mut clear = kept.clear_map(run)?;
+            to_best_scale(&kept.rest, run.objective, &mut clear);
+            report.boundary_repair = run.problem(&kept.rest).clear(&clear, &mut uv, &mut report.descent)?;
+        }
         if report.boundary_repair.is_some() {
             kept.cleared = Some(uv.clone());
         }
@@ -71,16 +71,40 @@ impl Continuation {
 
 impl Kept {
     fn new(run: &Run<'_>) -> Result<Self, ParameterizeError> {
-        let start = run.start()?;
         let rest = Rest::new(run.mesh, &run.exempt);
-        // The unit is a power of two, so dividing by it rounds nothing.
-        let first = start.uv.iter().map(|p| p / rest.unit).collect();
+        let sizes = Sizes::default();
+        let arrived =
+            rayon::scope(|_| arrive(run.mesh, &run.exempt, &rest, run.objective, sizes, run.observer));
+        let (origin, first) = match arrived {
+            Some(uv) => {
+                let smallest_corner = judge(&rest, &uv).valid().unwrap_or(0.0);
+                (Origin { method: StartMethod::CoarseToFine, smallest_corner }, uv)
+            }
+            None => {
+                let start = run.start()?;
+                (start.origin(), in_units(&rest, &start))
+            }
+        };
         let hessian = Hessian::new(&rest).map_err(DescentError::from)?;
-        Ok(Self { start, rest, hessian, first, last: None, cleared: None })
+        Ok(Self { origin, rest, hessian, first, last: None, cleared: None })
+    }
+
+    /// A map whose boundary is clear of itself.
+    fn clear_map(&self, run: &Run<'_>) -> Result<Vec<Vec2>, ParameterizeError> {
+        let known = self.cleared.iter().chain([&self.first]).find(|uv| outline_flaws(run.mesh, uv) == 0);
+        match known {
+            Some(uv) => Ok(uv.clone()),
+            None => Ok(in_units(&self.rest, &run.start()?)),
+        }
     }
 
     /// As far as can be told without comparing all of the surface: the caller promises the rest.
     fn belongs_to(&self, run: &Run<'_>) -> bool {
         self.rest.vertex_count == run.mesh.vertex_count() && self.rest.ids.len() <= run.mesh.corner_count()
     }
+}
+
+/// The unit is a power of two, so dividing by it rounds nothing.
+fn in_units(rest: &Rest, start: &Start) -> Vec<Vec2> {
+    start.uv.iter().map(|p| p / rest.unit).collect()
 }

@@ -17,8 +17,8 @@ use super::mirrored;
 use super::newton::descend;
 use super::pull::{self, Pin, Pull};
 use super::rest::{Rest, unit_length};
-use super::start::find_start_on;
-use super::{Descent, DescentOptions, DirectReport, Objective, Start, StartError, Terms, find_start};
+use super::start::{Origin, find_start_on, find_start_with_holes};
+use super::{Descent, DescentOptions, DirectReport, Objective, Start, StartError, Terms};
 
 /// What a map has to heed besides its energy.
 #[derive(Clone, Copy, Debug)]
@@ -125,20 +125,9 @@ pub(super) struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// A first map. Holes are filled for this time only.
+    /// A first map, on a circle.
     pub(super) fn start(&self) -> Result<Start, StartError> {
-        let Some(filled) = self.mesh.filled() else {
-            return find_start(self.mesh, &self.exempt, self.observer);
-        };
-        let start = find_start(&filled, &Exempt::find(&filled), self.observer);
-        let start = start.map_err(|error| error.outside_of_fillings(self.mesh, &filled))?;
-        Ok(self.without_filling(start))
-    }
-
-    fn without_filling(&self, start: Start) -> Start {
-        let mut uv = start.uv.into_vec();
-        uv.truncate(self.mesh.vertex_count());
-        Start { uv: VertexData::from_vec(uv), ..start }
+        find_start_with_holes(self.mesh, &self.exempt, self.observer)
     }
 
     fn held(&self, shape: &BoundaryShape) -> Result<(Map, DirectReport), ParameterizeError> {
@@ -147,11 +136,11 @@ impl Run<'_> {
         let boundary = HeldBoundary::new(&filled, &filled_exempt, shape)?;
         let start = find_start_on(&filled, &filled_exempt, &boundary.places, self.observer);
         let start = start.map_err(|error| error.outside_of_fillings(self.mesh, &filled))?;
-        let start = self.without_filling(start);
+        let start = start.truncated(self.mesh.vertex_count());
         let rest = boundary.rest(self.mesh, &self.exempt, &filled);
         let first: Vec<Vec2> = start.uv.iter().map(|p| p / rest.unit).collect();
         let mut uv = first.clone();
-        let mut report = self.report(&start, self.descend(&rest, &mut uv)?);
+        let mut report = self.report(start.origin(), self.descend(&rest, &mut uv)?);
         report.boundary_repair = self.problem(&rest).clear(&first, &mut uv, &mut report.descent)?;
         Ok((Map { uv, rest }, report))
     }
@@ -210,10 +199,10 @@ impl Run<'_> {
         }
     }
 
-    pub(super) fn report(&self, start: &Start, descent: Descent) -> DirectReport {
+    pub(super) fn report(&self, origin: Origin, descent: Descent) -> DirectReport {
         DirectReport {
-            start: start.method,
-            start_smallest_corner: start.smallest_corner,
+            start: origin.method,
+            start_smallest_corner: origin.smallest_corner,
             exempt_faces: self.exempt.faces(),
             descent,
             terms: Terms { angle: 0.0, area: 0.0, shape: 0.0 },

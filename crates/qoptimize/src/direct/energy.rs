@@ -10,7 +10,7 @@ use super::element::Edges;
 use super::hessian::Hessian;
 use super::kernel;
 use super::layout::Triangle;
-use super::rest::{Rest, RestCorner};
+use super::rest::{Corners, Rest, RestCorner};
 
 /// Corners that are summed by one task.
 const CHUNK: usize = 2048;
@@ -54,7 +54,7 @@ impl Terms {
 /// The energy of `uv`; infinite where a corner is not positive.
 pub(super) fn value(objective: &Objective, rest: &Rest, uv: &[Vec2]) -> f64 {
     let sums: Vec<f64> =
-        rest.corners.par_chunks(CHUNK).map(|corners| kernel::value(objective, corners, uv)).collect();
+        rest.par_chunks(CHUNK).map(|corners| kernel::value(objective, corners, uv)).collect();
     sums.iter().sum()
 }
 
@@ -66,8 +66,8 @@ pub(super) fn derivatives(
     hessian: &mut Hessian,
     uv: &[Vec2],
 ) -> Result<(f64, Vec<f64>), CornerId> {
-    let corners = |corners: &[RestCorner], gradients: &mut [Edges], triangles: &mut [Triangle]| {
+    let corners = |corners: Corners<'_>, gradients: &mut [Edges], triangles: &mut [Triangle]| {
         kernel::derivatives(objective, corners, uv, gradients, triangles)
     };
-    hessian.assemble(&rest.corners, corners).map_err(|corner| rest.ids[corner])
+    hessian.assemble(rest, corners).map_err(|corner| rest.ids[corner])
 }

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::DescentError;
 use super::element::Edges;
 use super::layout::{Layout, Triangle};
-use super::rest::{Rest, RestCorner};
+use super::rest::{Corners, Rest};
 use super::system::{Factored, Iterated};
 use crate::qmesh::Vec2;
 use crate::qsolve::SolveError;
@@ -132,11 +132,11 @@ impl Hessian {
     /// Returns the sum of all values and the gradient (2 entries a vertex), or the number of the first corner without a value.
     pub(super) fn assemble(
         &mut self,
-        corners: &[RestCorner],
-        shares: impl Fn(&[RestCorner], &mut [Edges], &mut [Triangle]) -> Result<f64, usize> + Sync,
+        rest: &Rest,
+        shares: impl Fn(Corners<'_>, &mut [Edges], &mut [Triangle]) -> Result<f64, usize> + Sync,
     ) -> Result<(f64, Vec<f64>), usize> {
         let Self { layout, vertices, gradients, triangles, system, .. } = self;
-        let chunks = corners
+        let chunks = rest
             .par_chunks(CHUNK)
             .zip(gradients.par_chunks_mut(CHUNK))
             .zip(triangles.par_chunks_mut(CHUNK))

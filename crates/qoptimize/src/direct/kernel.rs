@@ -4,13 +4,14 @@
 //! through `element` one by one.
 #![allow(clippy::needless_range_loop, clippy::assign_op_pattern)] // loops over lanes become vector instructions
 
+use std::ops::Range;
+
 use pulp::Arch;
 
 use super::element::{self, Edges};
-use super::energy::edges;
 use super::lanes::{LANES, Lanes};
 use super::layout::Triangle;
-use super::rest::RestCorner;
+use super::rest::{Corners, Frame, RestCorner, framed, unframed, unframed_triangle};
 use super::{AngleTerm, Objective};
 use crate::qmesh::Vec2;
 
@@ -18,22 +19,24 @@ use crate::qmesh::Vec2;
 const ORDINARY: f64 = 1e-140;
 
 /// The sum of the energies of `corners`; infinite where one is not positive.
-pub(super) fn value(objective: &Objective, corners: &[RestCorner], uv: &[Vec2]) -> f64 {
-    let one_by_one = |corners: &[RestCorner]| {
-        corners.iter().map(|c| element::value(objective, c, edges(c, uv))).sum::<f64>()
+pub(super) fn value(objective: &Objective, chunk: Corners<'_>, uv: &[Vec2]) -> f64 {
+    let count = chunk.corners.len();
+    let one_by_one = |places: Range<usize>| {
+        places.map(|at| element::value(objective, &chunk.corners[at], chunk.edges(at, uv))).sum::<f64>()
     };
-    let Objective::Direct { q, shape, angle_term } = *objective else { return one_by_one(corners) };
+    let Objective::Direct { q, shape, angle_term } = *objective else { return one_by_one(0..count) };
     Arch::new().dispatch(|| {
-        let (groups, last) = corners.as_chunks::<LANES>();
+        let (groups, last) = chunk.corners.as_chunks::<LANES>();
         let mut sums = Lanes::ZERO;
         let mut others = 0.0;
-        for corners in groups {
-            match Group::new(corners, uv).value(q, shape, angle_term) {
+        for (number, corners) in groups.iter().enumerate() {
+            let places = number * LANES..(number + 1) * LANES;
+            match Group::new(corners, chunk.frames.get(places.clone()), uv).value(q, shape, angle_term) {
                 Some(values) => sums += values,
-                None => others += one_by_one(corners),
+                None => others += one_by_one(places),
             }
         }
-        sums.0.iter().sum::<f64>() + others + one_by_one(last)
+        sums.0.iter().sum::<f64>() + others + one_by_one(count - last.len()..count)
     })
 }
 
@@ -41,15 +44,32 @@ pub(super) fn value(objective: &Objective, corners: &[RestCorner], uv: &[Vec2]) 
 /// not positive.
 pub(super) fn derivatives(
     objective: &Objective,
-    corners: &[RestCorner],
+    chunk: Corners<'_>,
     uv: &[Vec2],
     gradients: &mut [Edges],
     triangles: &mut [Triangle],
 ) -> Result<f64, usize> {
-    let one_by_one = |places: std::ops::Range<usize>, gradients: &mut [Edges], triangles: &mut [Triangle]| {
+    let value = derivatives_by_edges(objective, chunk, uv, gradients, triangles)?;
+    for ((frame, gradient), triangle) in chunk.frames.iter().zip(gradients).zip(triangles) {
+        *gradient = unframed(frame, *gradient);
+        *triangle = unframed_triangle(frame, triangle);
+    }
+    Ok(value)
+}
+
+/// The same by the edge vectors of what the triangles stand for.
+fn derivatives_by_edges(
+    objective: &Objective,
+    chunk: Corners<'_>,
+    uv: &[Vec2],
+    gradients: &mut [Edges],
+    triangles: &mut [Triangle],
+) -> Result<f64, usize> {
+    let corners = chunk.corners;
+    let one_by_one = |places: Range<usize>, gradients: &mut [Edges], triangles: &mut [Triangle]| {
         let mut sum = 0.0;
         for at in places {
-            let element = element::derivatives(objective, &corners[at], edges(&corners[at], uv)).ok_or(at)?;
+            let element = element::derivatives(objective, &corners[at], chunk.edges(at, uv)).ok_or(at)?;
             sum += element.value;
             gradients[at] = element.gradient;
             triangles[at] = element.hessian;
@@ -65,7 +85,8 @@ pub(super) fn derivatives(
         let mut others = 0.0;
         for (number, corners) in groups.iter().enumerate() {
             let places = number * LANES..(number + 1) * LANES;
-            match Group::new(corners, uv).derivatives(q, shape, angle_term) {
+            let group = Group::new(corners, chunk.frames.get(places.clone()), uv);
+            match group.derivatives(q, shape, angle_term) {
                 Some(eight) => {
                     sums += eight.value;
                     eight.store(&mut gradients[places.clone()], &mut triangles[places]);
@@ -135,7 +156,7 @@ fn angle_residual(term: AngleTerm, theta: Lanes, phi: Lanes) -> (Lanes, Lanes) {
 
 impl Group {
     #[inline(always)]
-    fn new(corners: &[RestCorner; LANES], uv: &[Vec2]) -> Self {
+    fn new(corners: &[RestCorner; LANES], frames: Option<&[Frame]>, uv: &[Vec2]) -> Self {
         let zero = Lanes::ZERO;
         let mut group =
             Self { f: [zero; 4], angle: zero, area: zero, inverse: [zero; 3], share: zero, weight: zero };
@@ -154,6 +175,12 @@ impl Group {
             }
             group.share.0[l] = corner.share;
             group.weight.0[l] = corner.weight;
+        }
+        if let Some(frames) = frames {
+            for (l, frame) in frames.iter().enumerate() {
+                let f = framed(frame, group.f.map(|f| f.0[l]));
+                (0..4).for_each(|i| group.f[i].0[l] = f[i]);
+            }
         }
         group
     }

@@ -40,7 +40,7 @@ impl Run<'_> {
         let mut first: Vec<Vec2> = start.uv.iter().map(|p| p / rest.unit).collect();
         to_best_scale(&rest, self.objective, &mut first);
         let mut uv = first.clone();
-        let mut report = self.report(&start, self.descend(&rest, &mut uv)?);
+        let mut report = self.report(start.origin(), self.descend(&rest, &mut uv)?);
         if outline_flaws(self.mesh, &uv) > 0 {
             report.boundary_repair = self.problem(&rest).clear(&first, &mut uv, &mut report.descent)?;
         }

@@ -18,6 +18,7 @@
 //! Gauss–Newton leaves out.
 
 mod clear;
+mod coarse;
 mod conjugate;
 mod constraint;
 mod continuation;

@@ -2,9 +2,14 @@
 //!
 //! Lengths are in units of about the square root of the surface area, so energies and tolerances are free of units.
 
-use crate::qmesh::{CornerId, FaceId, QuadMesh, Vec3, VertexId};
+use rayon::prelude::*;
+
+use crate::qmesh::{CornerId, FaceId, QuadMesh, Vec2, Vec3, VertexId};
 
 use super::constraint::Constraint;
+use super::element::Edges;
+use super::energy::edges;
+use super::layout::Triangle;
 use crate::convexity::Exempt;
 
 /// Rest angles are kept this far from 0 and π, so that no weight is infinite.
@@ -12,7 +17,7 @@ const ANGLE_MARGIN: f64 = 1e-3;
 /// Edges at rest count as at least this fraction of the mean edge.
 const SHORTEST_EDGE: f64 = 1e-6;
 /// The share of the symmetric Dirichlet weight that is the same for all corners: without it, small quads bloat.
-const UNIFORM_SHARE: f64 = 0.1;
+pub(super) const UNIFORM_SHARE: f64 = 0.1;
 /// In a quad with one corner concave in space, the corners that split it validly count double, the others this much.
 const CONCAVE_LIGHT: f64 = 0.01;
 
@@ -33,10 +38,50 @@ pub(super) struct RestCorner {
     pub(super) weight: f64,
 }
 
+/// A corner of the surface that a larger triangle stands for: its edge vectors by those of the triangle, `[x1, y1, x0, y0]` where
+/// that to the next vertex is `x1 f1 + y1 f0`, and that to the previous one `x0 f1 + y0 f0`.
+pub(super) type Frame = [f64; 4];
+
+/// Corners in a row.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corners<'a> {
+    pub(super) corners: &'a [RestCorner],
+    /// One for each corner, or none at all: then triangles stand for themselves.
+    pub(super) frames: &'a [Frame],
+}
+
+impl Corners<'_> {
+    /// The edge vectors in the plane, `(to next, to previous)`, of corner number `at`.
+    pub(super) fn edges(&self, at: usize, uv: &[Vec2]) -> Edges {
+        let f = edges(&self.corners[at], uv);
+        self.frames.get(at).map_or(f, |frame| framed(frame, f))
+    }
+}
+
+/// The edge vectors of what a triangle with the edge vectors `f` stands for.
+pub(super) fn framed(&[x1, y1, x0, y0]: &Frame, [f1x, f1y, f0x, f0y]: Edges) -> Edges {
+    [x1 * f1x + y1 * f0x, x1 * f1y + y1 * f0y, x0 * f1x + y0 * f0x, x0 * f1y + y0 * f0y]
+}
+
+/// A derivative by those edge vectors as one by the triangle's.
+pub(super) fn unframed(&[x1, y1, x0, y0]: &Frame, [g1x, g1y, g0x, g0y]: Edges) -> Edges {
+    [x1 * g1x + x0 * g0x, x1 * g1y + x0 * g0y, y1 * g1x + y0 * g0x, y1 * g1y + y0 * g0y]
+}
+
+/// The same for second derivatives.
+pub(super) fn unframed_triangle(frame: &Frame, &[a, b, c, d, e, f, g, h, i, j]: &Triangle) -> Triangle {
+    let rows = [[a, b, c, d], [b, e, f, g], [c, f, h, i], [d, g, i, j]].map(|row| unframed(frame, row));
+    let column = |k: usize| unframed(frame, [rows[0][k], rows[1][k], rows[2][k], rows[3][k]]);
+    let [[a, ..], [b, e, ..], [c, f, h, _], [d, g, i, j]] = [column(0), column(1), column(2), column(3)];
+    [a, b, c, d, e, f, g, h, i, j]
+}
+
 /// All corner triangles that the map has to keep positive, and the unit of length.
 #[derive(Clone, Debug)]
 pub(super) struct Rest {
     pub(super) corners: Vec<RestCorner>,
+    /// One for each corner, or none at all: see [`Corners`].
+    pub(super) frames: Vec<Frame>,
     /// The corner of the mesh behind each entry.
     pub(super) ids: Vec<CornerId>,
     pub(super) vertex_count: usize,
@@ -49,22 +94,35 @@ pub(super) struct Rest {
 impl Rest {
     pub(super) fn new(mesh: &QuadMesh, exempt: &Exempt) -> Self {
         let unit = unit_length(crate::qcurv::surface_area(mesh));
-        let shortest = SHORTEST_EDGE * mean_edge(mesh) / unit;
+        let shortest = shortest_edge(mesh) / unit;
         let mut ids = Vec::with_capacity(mesh.corner_count());
         let mut corners = Vec::with_capacity(mesh.corner_count());
         for face in mesh.faces() {
-            let factors = corner_factors(mesh, face, exempt);
-            for (corner, factor) in mesh.face_corners(face).zip(factors) {
-                if factor > 0.0 {
-                    ids.push(corner);
-                    corners.push(rest_corner(mesh, corner, unit, shortest, factor));
-                }
+            for (corner, at_rest) in rest_corners(mesh, face, exempt, unit, shortest) {
+                ids.push(corner);
+                corners.push(at_rest);
             }
         }
-        let mut rest =
-            Self { corners, ids, vertex_count: mesh.vertex_count(), unit, constraint: Constraint::default() };
+        let mut rest = Self {
+            corners,
+            frames: Vec::new(),
+            ids,
+            vertex_count: mesh.vertex_count(),
+            unit,
+            constraint: Constraint::default(),
+        };
         rest.share_out();
         rest
+    }
+
+    /// All corners in chunks of `size`.
+    pub(super) fn par_chunks(&self, size: usize) -> impl IndexedParallelIterator<Item = Corners<'_>> {
+        let count = self.corners.len();
+        (0..count.div_ceil(size)).into_par_iter().map(move |chunk| {
+            let range = chunk * size..((chunk + 1) * size).min(count);
+            let frames = if self.frames.is_empty() { &[] } else { &self.frames[range.clone()] };
+            Corners { corners: &self.corners[range], frames }
+        })
     }
 
     /// The same surface in lengths `factor` times as long.
@@ -110,6 +168,24 @@ fn rest_corner(mesh: &QuadMesh, corner: CornerId, unit: f64, shortest: f64, fact
         share: factor,
         weight: 0.0,
     }
+}
+
+/// The corners of `face` that count, with their factors in place of their shares.
+pub(super) fn rest_corners(
+    mesh: &QuadMesh,
+    face: FaceId,
+    exempt: &Exempt,
+    unit: f64,
+    shortest: f64,
+) -> impl Iterator<Item = (CornerId, RestCorner)> {
+    let factors = corner_factors(mesh, face, exempt);
+    let counting = mesh.face_corners(face).zip(factors).filter(|&(_, factor)| factor > 0.0);
+    counting.map(move |(corner, factor)| (corner, rest_corner(mesh, corner, unit, shortest, factor)))
+}
+
+/// What edges count as at least.
+pub(super) fn shortest_edge(mesh: &QuadMesh) -> f64 {
+    SHORTEST_EDGE * mean_edge(mesh)
 }
 
 fn mean_edge(mesh: &QuadMesh) -> f64 {

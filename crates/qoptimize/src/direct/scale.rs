@@ -9,8 +9,8 @@ use crate::qmesh::Vec2;
 
 use super::Objective;
 use super::element::{Edges, jacobian};
-use super::energy::{self, edges};
-use super::rest::{Rest, RestCorner};
+use super::energy;
+use super::rest::{Corners, Rest, RestCorner};
 
 /// Corners that one task takes.
 const CHUNK: usize = 4096;
@@ -67,13 +67,15 @@ impl Powers {
 
 /// Scales `uv`, in the units of `rest`, to a scale of least energy.
 pub(super) fn to_best_scale(rest: &Rest, objective: &Objective, uv: &mut [Vec2]) {
-    let of_chunk = |corners: &[RestCorner]| {
+    let of_chunk = |chunk: Corners<'_>| {
         let mut powers = Powers::default();
-        corners.iter().for_each(|corner| powers.add(objective, corner, edges(corner, uv)));
+        for (at, corner) in chunk.corners.iter().enumerate() {
+            powers.add(objective, corner, chunk.edges(at, uv));
+        }
         powers
     };
     // In chunks of fixed size, so that the sums do not depend on the number of threads.
-    let chunks: Vec<Powers> = rest.corners.par_chunks(CHUNK).map(of_chunk).collect();
+    let chunks: Vec<Powers> = rest.par_chunks(CHUNK).map(of_chunk).collect();
     let powers = chunks.iter().fold(Powers::default(), Powers::plus);
     let Some(scale) = powers.least().map(f64::sqrt).filter(|scale| scale.is_normal()) else { return };
     let scaled: Vec<Vec2> = uv.iter().map(|p| p * scale).collect();

@@ -40,6 +40,8 @@ pub enum StartMethod {
     Torsion,
     /// The untangler had to help.
     Untangled,
+    /// A map of a coarser mesh was carried up.
+    CoarseToFine,
 }
 
 /// A valid first map on the unit circle.
@@ -54,12 +56,46 @@ pub struct Start {
     pub smallest_corner: f64,
 }
 
+/// Where a first map comes from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Origin {
+    pub(super) method: StartMethod,
+    pub(super) smallest_corner: f64,
+}
+
+impl Start {
+    pub(super) fn origin(&self) -> Origin {
+        Origin { method: self.method, smallest_corner: self.smallest_corner }
+    }
+
+    /// The map of the first vertices alone.
+    pub(super) fn truncated(self, vertex_count: usize) -> Self {
+        let mut uv = self.uv.into_vec();
+        uv.truncate(vertex_count);
+        Self { uv: VertexData::from_vec(uv), ..self }
+    }
+}
+
 /// Finds a map of the disk `mesh` to the unit circle in which every corner (but for exempt ones) turns left.
 ///
 /// # Errors
 /// [`StartError::Tangled`] with the place, when none of the three ways leads to one.
 pub fn find_start(mesh: &QuadMesh, exempt: &Exempt, observer: &dyn Observer) -> Result<Start, StartError> {
     find_start_on(mesh, exempt, &circle(mesh)?, observer)
+}
+
+/// The same where `mesh` may have holes, which are filled for this time only.
+pub(super) fn find_start_with_holes(
+    mesh: &QuadMesh,
+    exempt: &Exempt,
+    observer: &dyn Observer,
+) -> Result<Start, StartError> {
+    let Some(filled) = mesh.filled() else {
+        return find_start(mesh, exempt, observer);
+    };
+    let start = find_start(&filled, &Exempt::find(&filled), observer);
+    let start = start.map_err(|error| error.outside_of_fillings(mesh, &filled))?;
+    Ok(start.truncated(mesh.vertex_count()))
 }
 
 /// The same with the boundary elsewhere. On a boundary that is not strictly convex, there need not be such a map.

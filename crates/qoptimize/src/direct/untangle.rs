@@ -2,7 +2,8 @@
 //!
 //! Minimises `Σ (|J|² + det² + 1) / (2 χ(det, ε))`, `χ = (det + √(ε² + det²))/2`, over the interior vertices. χ is positive for
 //! flipped corners too, so the sum is finite everywhere; ε falls towards 0 as the map improves, and what is left flipped then costs
-//! more and more. J maps equal squares to the plane, so the surface's shape plays no part.
+//! more and more. J maps equal squares to the plane where the surface's shape is to play no part ([`untangle`]), or the corners at
+//! rest where the map is to stay near what it is ([`mend`]).
 
 use std::ops::ControlFlow;
 
@@ -12,7 +13,7 @@ use super::element::Edges;
 use super::energy::edges;
 use super::hessian::{Accuracy, Hessian, Solved};
 use super::layout::Triangle;
-use super::rest::{Rest, RestCorner};
+use super::rest::{Corners, Frame, Rest, RestCorner, framed, unframed, unframed_triangle};
 use super::{DescentError, StartError};
 use crate::qmesh::{Observer, QuadMesh, Vec2};
 
@@ -36,17 +37,42 @@ pub(super) fn untangle(
 ) -> Result<(), StartError> {
     let side = square_side(mesh, uv);
     let fixed: Vec<bool> = mesh.vertices().map(|vertex| mesh.is_boundary(vertex)).collect();
+    widen(rest, Some(side), &fixed, uv, MAX_STEPS, observer)
+}
+
+/// Moves the vertices of `uv`, in units of `rest`, that are not `fixed` until every corner has room, or `max_steps` were made.
+///
+/// # Errors
+/// As [`untangle`].
+pub(super) fn mend(
+    rest: &Rest,
+    fixed: &[bool],
+    uv: &mut [Vec2],
+    max_steps: usize,
+    observer: &dyn Observer,
+) -> Result<(), StartError> {
+    widen(rest, None, fixed, uv, max_steps, observer)
+}
+
+fn widen(
+    rest: &Rest,
+    side: Option<f64>,
+    fixed: &[bool],
+    uv: &mut [Vec2],
+    max_steps: usize,
+    observer: &dyn Observer,
+) -> Result<(), StartError> {
     let mut hessian = Hessian::new(rest)?;
     hessian.factorize()?;
     let mut epsilon = 1.0;
-    for step in 0..MAX_STEPS {
-        if let ControlFlow::Break(()) = observer.progress("untangle", step as f64 / MAX_STEPS as f64) {
+    for step in 0..max_steps {
+        if let ControlFlow::Break(()) = observer.progress("untangle", step as f64 / max_steps as f64) {
             return Err(StartError::Cancelled);
         }
         let barrier = Barrier { side, epsilon };
         let before = barrier.value(rest, uv);
         let gradient = barrier.derivatives(rest, uv, &mut hessian);
-        let gradient = hessian.fix(&fixed, gradient);
+        let gradient = hessian.fix(fixed, gradient);
         let solved = hessian.newton_direction(uv, &gradient, Accuracy::DIRECTION, false);
         let Solved { mut direction, decrement, .. } = solved.map_err(solve_error)?;
         rest.constraint.reflect(&mut direction);
@@ -91,13 +117,20 @@ fn square_side(mesh: &QuadMesh, uv: &[Vec2]) -> f64 {
 }
 
 struct Barrier {
-    side: f64,
+    /// That of the squares, or none: corners are mapped from their own shape at rest.
+    side: Option<f64>,
     epsilon: f64,
 }
 
 impl Barrier {
+    /// The derivative of the map by the edge vectors in the plane.
+    fn frame(&self, corner: &RestCorner) -> Frame {
+        let [i11, i12, i22] = self.side.map_or(corner.inverse, |side| [1.0 / side, 0.0, 1.0 / side]);
+        [i11, 0.0, i12, i22]
+    }
+
     fn jacobian(&self, corner: &RestCorner, uv: &[Vec2]) -> [f64; 4] {
-        edges(corner, uv).map(|x| x / self.side)
+        framed(&self.frame(corner), edges(corner, uv))
     }
 
     fn chi(&self, det: f64) -> f64 {
@@ -127,15 +160,18 @@ impl Barrier {
     /// With N = |J| and D = det the energy is g(N, D) and its Hessian `g_N/N · (1 − n nᵀ)` and the 2 × 2 Hessian of g in the
     /// directions n and ∇D, made positive semidefinite; the second derivative of D is left out.
     fn derivatives(&self, rest: &Rest, uv: &[Vec2], hessian: &mut Hessian) -> Vec<f64> {
-        let shares = |corners: &[RestCorner], gradients: &mut [Edges], triangles: &mut [Triangle]| {
-            for ((corner, gradient), triangle) in corners.iter().zip(gradients).zip(triangles) {
-                (*gradient, *triangle) = self.corner(self.jacobian(corner, uv));
+        let shares = |corners: Corners<'_>, gradients: &mut [Edges], triangles: &mut [Triangle]| {
+            for ((corner, gradient), triangle) in corners.corners.iter().zip(gradients).zip(triangles) {
+                let frame = self.frame(corner);
+                let (by_jacobian, twice) = self.corner(framed(&frame, edges(corner, uv)));
+                (*gradient, *triangle) = (unframed(&frame, by_jacobian), unframed_triangle(&frame, &twice));
             }
             Ok(0.0)
         };
-        hessian.assemble(&rest.corners, shares).map_or_else(|_| Vec::new(), |(_, gradient)| gradient)
+        hessian.assemble(rest, shares).map_or_else(|_| Vec::new(), |(_, gradient)| gradient)
     }
 
+    /// First and second derivatives by the Jacobian.
     fn corner(&self, j: [f64; 4]) -> ([f64; 4], [f64; 10]) {
         let [a, c, b, d] = j;
         let (norm, det) = invariants(j);
@@ -150,20 +186,18 @@ impl Barrier {
         let length = norm.sqrt().max(f64::MIN_POSITIVE);
         let unit = j.map(|x| x / length);
         let mixed = -length * chi1 / (chi * chi);
-        let gradient = std::array::from_fn(|i| (j[i] / chi + by_det * cofactor[i]) / self.side);
+        let gradient = std::array::from_fn(|i| j[i] / chi + by_det * cofactor[i]);
         let [(low, v), (high, w)] = super::isotropic::eigen_2x2([1.0 / chi, mixed, by_det2]);
         let along = |[x, y]: [f64; 2]| -> [f64; 4] { std::array::from_fn(|i| x * unit[i] + y * cofactor[i]) };
         let (v, w) = (along(v), along(w));
-        let scale = 1.0 / (self.side * self.side);
         let mut hessian = [0.0; 10];
         let mut at = 0;
         for i in 0..4 {
             for k in i..4 {
                 let identity = if i == k { 1.0 } else { 0.0 };
-                hessian[at] = scale
-                    * ((identity - unit[i] * unit[k]) / chi
-                        + low.max(0.0) * v[i] * v[k]
-                        + high.max(0.0) * w[i] * w[k]);
+                hessian[at] = (identity - unit[i] * unit[k]) / chi
+                    + low.max(0.0) * v[i] * v[k]
+                    + high.max(0.0) * w[i] * w[k];
                 at += 1;
             }
         }

@@ -1,0 +1,102 @@
+//! The energy of the finest mesh, measured in the middle of each coarse face.
+
+use crate::convexity::Exempt;
+use crate::qmesh::{CornerId, FaceId, QuadMesh, Vec2, Vec3};
+
+use super::super::constraint::Constraint;
+use super::super::rest::{Frame, Rest, RestCorner, UNIFORM_SHARE, rest_corners, shortest_edge};
+use super::surface::Surface;
+
+/// What `coarse` is at rest: every corner of a coarse face stands for corners of the quad in its middle, as much of the surface as
+/// lies around them.
+pub(super) fn rest(
+    coarse: &Surface<'_>,
+    coarse_exempt: &Exempt,
+    quads: &QuadMesh,
+    exempt: &Exempt,
+    unit: f64,
+) -> Rest {
+    let mesh = &coarse.mesh;
+    let (mut corners, mut frames, mut ids) = (Vec::new(), Vec::new(), Vec::new());
+    let (total_count, total_area) = (coarse.counts.iter().sum::<f64>(), coarse.areas.iter().sum::<f64>());
+    let shortest = shortest_edge(quads) / unit;
+    for face in mesh.faces() {
+        let samples: Vec<_> = rest_corners(quads, coarse.middle(face), exempt, unit, shortest).collect();
+        let (count, area) = stands_for(coarse, face);
+        let own: Vec<CornerId> =
+            mesh.face_corners(face).filter(|&corner| !coarse_exempt.is_exempt(mesh, corner)).collect();
+        let factors: f64 = samples.iter().map(|(_, sample)| sample.share).sum();
+        for (k, (corner, sample)) in samples.iter().enumerate() {
+            // A triangle's corners are all the same; those of other faces take turns.
+            let at = own[k * own.len() / samples.len().max(1)];
+            let Some(triangle) = Triangle::new(mesh, at, unit) else { continue };
+            let part = sample.share / factors;
+            corners.push(RestCorner {
+                vertices: triangle.vertices,
+                share: part * count / total_count,
+                weight: part
+                    * ((1.0 - UNIFORM_SHARE) * area / total_area + UNIFORM_SHARE * count / total_count),
+                ..*sample
+            });
+            frames.push(triangle.frame(quads, *corner, sample, unit));
+            ids.push(at);
+        }
+    }
+    Rest { corners, frames, ids, vertex_count: mesh.vertex_count(), unit, constraint: Constraint::default() }
+}
+
+/// How many vertices of the finest mesh `face` stands for, and how much area.
+fn stands_for(coarse: &Surface<'_>, face: FaceId) -> (f64, f64) {
+    let mut sums = (0.0, 0.0);
+    for corner in coarse.mesh.face_corners(face) {
+        let vertex = coarse.mesh.vertex(corner);
+        let around = coarse.mesh.vertex_corners(vertex).count() as f64;
+        sums.0 += coarse.counts[vertex.index()] / around;
+        sums.1 += coarse.areas[vertex.index()] / around;
+    }
+    sums
+}
+
+/// A corner triangle of a coarse face, in its plane.
+struct Triangle {
+    vertices: [u32; 3],
+    axes: [Vec3; 2],
+    /// The inverse of the edge vectors `(to next, to previous)`: entries 11, 12 and 22.
+    inverse: [f64; 3],
+}
+
+impl Triangle {
+    /// `None` without area.
+    fn new(mesh: &QuadMesh, corner: CornerId, unit: f64) -> Option<Self> {
+        let [next, previous] = mesh.corner_vectors(corner).map(|edge| edge / unit);
+        let x = next.try_normalize(0.0)?;
+        let y = (previous - x * previous.dot(&x)).try_normalize(1e-12 * previous.norm())?;
+        let (length, along, height) = (next.norm(), previous.dot(&x), previous.dot(&y));
+        let vertices =
+            [corner, mesh.next_corner(corner), mesh.previous_corner(corner)].map(|c| mesh.vertex(c).0);
+        Some(Self {
+            vertices,
+            axes: [x, y],
+            inverse: [1.0 / length, -along / (length * height), 1.0 / height],
+        })
+    }
+
+    /// The edges of `corner` by those of the triangle, laid into its plane without bending their angle or lengths.
+    fn frame(&self, quads: &QuadMesh, corner: CornerId, sample: &RestCorner, unit: f64) -> Frame {
+        let seen = quads
+            .corner_vectors(corner)
+            .map(|v| Vec2::new(v.dot(&self.axes[0]), v.dot(&self.axes[1])) / unit);
+        let [i11, i12, i22] = sample.inverse;
+        let own = [Vec2::new(1.0 / i11, 0.0), Vec2::new(-i12 / (i11 * i22), 1.0 / i22)];
+        let cross: f64 = own.iter().zip(&seen).map(|(o, s)| o.perp(s)).sum();
+        let dot: f64 = own.iter().zip(&seen).map(|(o, s)| o.dot(s)).sum();
+        let (sin, cos) = cross.atan2(dot).sin_cos();
+        let [a, b, c] = self.inverse;
+        let by_triangle = |v: &Vec2| {
+            let v = Vec2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
+            [a * v.x + b * v.y, c * v.y]
+        };
+        let ([x1, y1], [x0, y0]) = (by_triangle(&own[0]), by_triangle(&own[1]));
+        [x1, y1, x0, y0]
+    }
+}

@@ -7,18 +7,24 @@ use crate::qmesh::{FaceId, Polygons, QuadMesh, Vec3};
 use super::clusters::{Clusters, RADIUS};
 use super::surface::{Surface, unit};
 
+/// A coarse mesh has at most this part of the vertices.
+const LEAST_GAIN: usize = 2;
 /// Attempts at clusters that lie side by side like faces.
 const ATTEMPTS: usize = 12;
 
-/// The next coarser surface: a vertex for each cluster, a face for each face of `surface` at which three or more meet.
+/// The next coarser surface: a vertex for each cluster, triangles where three or more meet in a face of `surface`.
 ///
 /// Around a thin limb clusters meet themselves on the other side, and the faces are no manifold. There they are made smaller, down
-/// to single vertices, until they are one. `None` when that does not help, or the topology is another one.
+/// to single vertices, until they are one. `None` when that does not help, or the topology is another one, or little is
+/// gained.
 pub(super) fn coarsened(surface: &Surface<'_>) -> Option<(Surface<'static>, Clusters)> {
     let topology = surface.mesh.topology();
     let mut radius = vec![RADIUS; surface.mesh.vertex_count()];
     for _ in 0..ATTEMPTS {
         let clusters = Clusters::new(&surface.mesh, &radius);
+        if clusters.seeds.len() * LEAST_GAIN > surface.mesh.vertex_count() {
+            return None;
+        }
         let (polygons, middles) = dual_faces(surface, &clusters);
         let too_large = entangled(&polygons, clusters.seeds.len());
         if !too_large.contains(&true) {
@@ -34,10 +40,12 @@ pub(super) fn coarsened(surface: &Surface<'_>) -> Option<(Surface<'static>, Clus
     None
 }
 
+/// The triangles between the seeds of clusters that meet in a face, and the middle of each. Where four meet, the shorter diagonal
+/// that leaves both triangles facing as the surface does parts them.
 fn dual_faces(surface: &Surface<'_>, clusters: &Clusters) -> (Polygons, Vec<FaceId>) {
     let mesh = &surface.mesh;
-    let positions = clusters.seeds.iter().map(|&seed| mesh.position(seed));
-    let mut polygons = Polygons { positions: positions.collect(), ..Polygons::default() };
+    let positions: Vec<Vec3> = clusters.seeds.iter().map(|&seed| mesh.position(seed)).collect();
+    let mut polygons = Polygons { positions, ..Polygons::default() };
     let mut middles: Vec<FaceId> = Vec::new();
     let mut around = Vec::new();
     for face in mesh.faces() {
@@ -47,12 +55,26 @@ fn dual_faces(surface: &Surface<'_>, clusters: &Clusters) -> (Polygons, Vec<Face
         if around.len() > 1 && around.first() == around.last() {
             around.pop();
         }
-        if around.len() >= 3 {
-            polygons.push_face(&around);
+        if let [a, b, c, d] = around[..] {
+            let normal: Vec3 = mesh.face_vertices(face).map(|vertex| surface.normals[vertex.index()]).sum();
+            let quad = [a, b, c, d].map(|v| polygons.positions[v as usize]);
+            if is_parted_between_second_and_fourth(quad, normal) {
+                around.rotate_left(1);
+            }
+        }
+        // A fan; none where fewer than three meet.
+        for k in 2..around.len() {
+            polygons.push_face(&[around[0], around[k - 1], around[k]]);
             middles.push(surface.middle(face));
         }
     }
     (polygons, middles)
+}
+
+fn is_parted_between_second_and_fourth([a, b, c, d]: [Vec3; 4], normal: Vec3) -> bool {
+    let faces = |a: Vec3, b: Vec3, c: Vec3| (b - a).cross(&(c - a)).dot(&normal) > 0.0;
+    let (first, second) = (faces(a, b, c) && faces(a, c, d), faces(b, c, d) && faces(b, d, a));
+    if first == second { (d - b).norm_squared() < (c - a).norm_squared() } else { second }
 }
 
 /// Per cluster, whether it stands in the way of a manifold: it comes up twice in a face or not at all, shares an edge with

@@ -1,9 +1,9 @@
 //! Coarse to fine: the way down is walked where steps are cheap.
 //!
-//! The paper's future work, "a good hierarchical solver". Vertices are joined to clusters, and the faces where three or more of
-//! them meet become the faces of a coarser mesh ([`clusters`], [`dual`]). Its map is found first, by the same means; what is
-//! minimised there is the energy of the finest mesh, each coarse face standing for the quads around its middle ([`sampled`]), since
-//! triangles of their own would measure angles that the quads do not have. Then its *shape* is carried up, not its places: every
+//! The paper's future work, "a good hierarchical solver". Vertices are joined to clusters, and where three or more of
+//! them meet in a face, a coarser mesh has a triangle ([`clusters`], [`dual`]). Its map is found first, by the same means; what is
+//! minimised there is the energy of the finest mesh, each triangle standing for the quads around its middle ([`sampled`]), since
+//! triangles by themselves would measure angles that the quads do not have. Then its *shape* is carried up, not its places: every
 //! vertex gets the derivative that the coarse map has there, and one sparse system finds the places that fit best ([`carry`],
 //! [`fit`]). What flips on the way is unfolded where it lies ([`repair`]).
 //!
@@ -89,20 +89,13 @@ impl Finest<'_> {
     /// A map of `surface` by way of the next coarser one; corners may be flipped.
     fn by_way_of_coarser(&self, surface: &Surface<'_>, watch: &Within<'_>) -> Option<Vec<Vec2>> {
         let (coarse, clusters) = dual::coarsened(surface)?;
-        let exempt = Exempt::find(&coarse.mesh);
-        let rest = sampled::rest(&coarse, &exempt, self.mesh, self.exempt, self.unit);
-        let uv = self.minimal(&coarse, &exempt, &rest, watch)?;
+        let rest = sampled::rest(&coarse, self.mesh, self.exempt, self.unit);
+        let uv = self.minimal(&coarse, &rest, watch)?;
         Some(carried(surface, &coarse, &clusters.of, self.unit, &uv))
     }
 
     /// The map of least energy of a coarse surface.
-    fn minimal(
-        &self,
-        coarse: &Surface<'_>,
-        exempt: &Exempt,
-        rest: &Rest,
-        watch: &Within<'_>,
-    ) -> Option<Vec<Vec2>> {
+    fn minimal(&self, coarse: &Surface<'_>, rest: &Rest, watch: &Within<'_>) -> Option<Vec<Vec2>> {
         let (watch_start, watch_descent) = watch.split(LAST);
         let from_coarser = (coarse.mesh.vertex_count() > self.sizes.coarsest)
             .then(|| self.by_way_of_coarser(coarse, &watch_start))
@@ -115,7 +108,7 @@ impl Finest<'_> {
             if from_coarser.is_some() { (watch_start, watch_descent) } else { watch.split(1.0 - START) };
         let mut uv = match from_coarser {
             Some(uv) => uv,
-            None => find_start_with_holes(&coarse.mesh, exempt, &watch_start).ok()?.uv.into_vec(),
+            None => find_start_with_holes(&coarse.mesh, &Exempt::default(), &watch_start).ok()?.uv.into_vec(),
         };
         to_best_scale(rest, self.objective, &mut uv);
         let mut hessian = Hessian::new(rest).ok()?;

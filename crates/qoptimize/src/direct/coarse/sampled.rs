@@ -7,39 +7,30 @@ use super::super::constraint::Constraint;
 use super::super::rest::{Frame, Rest, RestCorner, UNIFORM_SHARE, rest_corners, shortest_edge};
 use super::surface::Surface;
 
-/// What `coarse` is at rest: every corner of a coarse face stands for corners of the quad in its middle, as much of the surface as
-/// lies around them.
-pub(super) fn rest(
-    coarse: &Surface<'_>,
-    coarse_exempt: &Exempt,
-    quads: &QuadMesh,
-    exempt: &Exempt,
-    unit: f64,
-) -> Rest {
+/// What `coarse` is at rest: every triangle stands for the corners of the quad in its middle, and they for as much of the surface as
+/// lies around.
+pub(super) fn rest(coarse: &Surface<'_>, quads: &QuadMesh, exempt: &Exempt, unit: f64) -> Rest {
     let mesh = &coarse.mesh;
     let (mut corners, mut frames, mut ids) = (Vec::new(), Vec::new(), Vec::new());
     let (total_count, total_area) = (coarse.counts.iter().sum::<f64>(), coarse.areas.iter().sum::<f64>());
     let shortest = shortest_edge(quads) / unit;
     for face in mesh.faces() {
-        let samples: Vec<_> = rest_corners(quads, coarse.middle(face), exempt, unit, shortest).collect();
+        let Some(own) = mesh.face_corners(face).next() else { continue };
+        let Some(triangle) = Triangle::new(mesh, own, unit) else { continue };
         let (count, area) = stands_for(coarse, face);
-        let own: Vec<CornerId> =
-            mesh.face_corners(face).filter(|&corner| !coarse_exempt.is_exempt(mesh, corner)).collect();
+        let (share, weight) = (count / total_count, area / total_area);
+        let samples: Vec<_> = rest_corners(quads, coarse.middle(face), exempt, unit, shortest).collect();
         let factors: f64 = samples.iter().map(|(_, sample)| sample.share).sum();
-        for (k, (corner, sample)) in samples.iter().enumerate() {
-            // A triangle's corners are all the same; those of other faces take turns.
-            let at = own[k * own.len() / samples.len().max(1)];
-            let Some(triangle) = Triangle::new(mesh, at, unit) else { continue };
+        for (corner, sample) in samples {
             let part = sample.share / factors;
             corners.push(RestCorner {
                 vertices: triangle.vertices,
-                share: part * count / total_count,
-                weight: part
-                    * ((1.0 - UNIFORM_SHARE) * area / total_area + UNIFORM_SHARE * count / total_count),
-                ..*sample
+                share: part * share,
+                weight: part * ((1.0 - UNIFORM_SHARE) * weight + UNIFORM_SHARE * share),
+                ..sample
             });
-            frames.push(triangle.frame(quads, *corner, sample, unit));
-            ids.push(at);
+            frames.push(triangle.frame(quads, corner, &sample, unit));
+            ids.push(own);
         }
     }
     Rest { corners, frames, ids, vertex_count: mesh.vertex_count(), unit, constraint: Constraint::default() }
@@ -57,7 +48,7 @@ fn stands_for(coarse: &Surface<'_>, face: FaceId) -> (f64, f64) {
     sums
 }
 
-/// A corner triangle of a coarse face, in its plane.
+/// A coarse triangle, in its plane.
 struct Triangle {
     vertices: [u32; 3],
     axes: [Vec3; 2],

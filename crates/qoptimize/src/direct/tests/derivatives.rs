@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::super::element::{self, Edges};
 use super::super::isotropic::{self, Columns, Density, Stretch};
-use super::super::rest::RestCorner;
+use super::super::rest::{Corners, RestCorner};
 use super::super::{AngleTerm, Objective};
 use super::super::{energy, kernel};
 use crate::qmesh::Vec2;
@@ -95,13 +95,14 @@ proptest! {
         if spoilt < 11 {
             uv[3 * spoilt + 2] = uv[3 * spoilt + 1];
         }
+        let corners = Corners { corners: &rest, frames: &[] };
         for objective in OBJECTIVES {
             let f: Vec<Edges> = rest.iter().map(|corner| energy::edges(corner, &uv)).collect();
             let alone: f64 = rest.iter().zip(&f).map(|(rest, &f)| element::value(&objective, rest, f)).sum();
-            let together = kernel::value(&objective, &rest, &uv);
+            let together = kernel::value(&objective, corners, &uv);
             prop_assert!(alone == together || (alone - together).abs() < 1e-13 * alone, "{alone} {together}");
             let (mut gradients, mut triangles) = (vec![[0.0; 4]; 11], vec![[0.0; 10]; 11]);
-            let done = kernel::derivatives(&objective, &rest, &uv, &mut gradients, &mut triangles);
+            let done = kernel::derivatives(&objective, corners, &uv, &mut gradients, &mut triangles);
             if spoilt < 11 {
                 prop_assert_eq!(done, Err(spoilt));
                 continue;

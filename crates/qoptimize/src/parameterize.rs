@@ -178,7 +178,7 @@ pub fn parameterize(
     options: &Options,
     observer: &dyn Observer,
 ) -> Result<Parameterization, ParameterizeError> {
-    parameterize_from(&mut Continuation::default(), mesh, options, observer)
+    parameterize_from(&mut Continuation::for_one(), mesh, options, observer)
 }
 
 /// The same for several settings, one after the other: [`Method::Direct`] and [`Method::Conformal`] with a free boundary start each

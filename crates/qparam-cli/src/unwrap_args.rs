@@ -195,7 +195,7 @@ pub(crate) struct MapArgs {
     )]
     pub(crate) max_steps: usize,
     /// Stop when a step promises to lower the energy by less than this fraction
-    #[arg(long, value_name = "R", default_value = "1e-6", value_parser = not_negative, allow_negative_numbers = true,
+    #[arg(long, value_name = "R", default_value = "1e-5", value_parser = not_negative, allow_negative_numbers = true,
         help_heading = "Minimisation (direct, conformal)")]
     pub(crate) relative_decrease: f64,
 

@@ -16,7 +16,11 @@ use super::{DescentError, DirectReport, Start, StartMethod};
 
 /// What maps of one surface with a free boundary hand on to each other: see [`embed_from`](super::embed_from).
 #[derive(Default)]
-pub struct Continuation(Option<Kept>);
+pub struct Continuation {
+    kept: Option<Kept>,
+    /// There is no next map: what is not needed any more is freed.
+    is_last: bool,
+}
 
 struct Kept {
     origin: Origin,
@@ -37,17 +41,22 @@ impl std::fmt::Debug for Continuation {
 }
 
 impl Continuation {
+    /// For one map only.
+    pub(crate) fn for_one() -> Self {
+        Self { is_last: true, ..Self::default() }
+    }
+
     /// Whether there is a map to start from.
     #[must_use]
     pub fn is_warm(&self) -> bool {
-        self.0.as_ref().is_some_and(|kept| kept.last.is_some())
+        self.kept.as_ref().is_some_and(|kept| kept.last.is_some())
     }
 
     /// The free map of least energy, from the last one if there is one.
     pub(super) fn free(&mut self, run: &Run<'_>) -> Result<(Map, DirectReport), ParameterizeError> {
-        let kept = match self.0.take().filter(|kept| kept.belongs_to(run)) {
-            Some(kept) => self.0.insert(kept),
-            None => self.0.insert(Kept::new(run)?),
+        let mut kept = match self.kept.take().filter(|kept| kept.belongs_to(run)) {
+            Some(kept) => kept,
+            None => Kept::new(run)?,
         };
         let mut uv = kept.last.clone().unwrap_or_else(|| kept.first.clone());
         to_best_scale(&kept.rest, run.objective, &mut uv);
@@ -55,17 +64,24 @@ impl Continuation {
         let descent = rayon::scope(|_| {
             descend(&kept.rest, &mut kept.hessian, &mut uv, run.objective, run.options, run.observer)
         })?;
-        kept.last = Some(uv.clone());
+        if !self.is_last {
+            kept.last = Some(uv.clone());
+        }
         let mut report = run.report(kept.origin, descent);
         if outline_flaws(run.mesh, &uv) > 0 {
             let mut clear = kept.clear_map(run)?;
             to_best_scale(&kept.rest, run.objective, &mut clear);
             report.boundary_repair = run.problem(&kept.rest).clear(&clear, &mut uv, &mut report.descent)?;
         }
+        if self.is_last {
+            return Ok((Map { uv, rest: kept.rest }, report));
+        }
         if report.boundary_repair.is_some() {
             kept.cleared = Some(uv.clone());
         }
-        Ok((Map { uv, rest: kept.rest.clone() }, report))
+        let rest = kept.rest.clone();
+        self.kept = Some(kept);
+        Ok((Map { uv, rest }, report))
     }
 }
 

@@ -57,7 +57,7 @@ pub fn embed(
     options: &DescentOptions,
     observer: &dyn Observer,
 ) -> Result<(VertexData<Vec2>, DirectReport), ParameterizeError> {
-    embed_from(&mut Continuation::default(), mesh, objective, wishes, options, observer)
+    embed_from(&mut Continuation::for_one(), mesh, objective, wishes, options, observer)
 }
 
 /// The same for several objectives, one after the other: with a free boundary and no symmetry asked for, each map starts from the

@@ -52,7 +52,6 @@ pub(super) struct Solved {
 /// A symmetric matrix of 2 × 2 blocks, and what solves with it.
 pub(super) struct Hessian {
     layout: Layout,
-    vertices: Vec<[u32; 3]>,
     gradients: Vec<Edges>,
     triangles: Vec<Triangle>,
     system: System,
@@ -78,10 +77,9 @@ impl Hessian {
         } else {
             System::Factored(Box::new(Factored::new(&layout)?))
         };
-        let vertices = rest.corners.iter().map(|corner| corner.vertices).collect();
         let (gradients, triangles) =
             (vec![[0.0; 4]; rest.corners.len()], vec![[0.0; 10]; rest.corners.len()]);
-        Ok(Self { layout, vertices, gradients, triangles, system, spare: None, is_large, patience: [0, 0] })
+        Ok(Self { layout, gradients, triangles, system, spare: None, is_large, patience: [0, 0] })
     }
 
     /// Factorizes from here on, for a while where the system is a large one; the matrix has to be assembled again.
@@ -135,7 +133,7 @@ impl Hessian {
         rest: &Rest,
         shares: impl Fn(Corners<'_>, &mut [Edges], &mut [Triangle]) -> Result<f64, usize> + Sync,
     ) -> Result<(f64, Vec<f64>), usize> {
-        let Self { layout, vertices, gradients, triangles, system, .. } = self;
+        let Self { layout, gradients, triangles, system, .. } = self;
         let chunks = rest
             .par_chunks(CHUNK)
             .zip(gradients.par_chunks_mut(CHUNK))
@@ -147,7 +145,7 @@ impl Hessian {
             })
             .collect();
         let value = sums.into_iter().sum::<Result<f64, usize>>()?;
-        let row = |row, blocks: &mut _| layout.gather_row(row, triangles, vertices, blocks);
+        let row = |row, blocks: &mut _| layout.gather_row(row, triangles, &rest.corners, blocks);
         match system {
             System::Factored(system) => system.fill(row),
             System::Iterated(system) => system.fill(row),

@@ -93,7 +93,7 @@ impl Layout {
         &self,
         vertex: usize,
         triangles: &[Triangle],
-        vertices: &[[u32; 3]],
+        corners: &[RestCorner],
         row: &mut Vec<Block>,
     ) {
         row.clear();
@@ -103,7 +103,7 @@ impl Layout {
             let blocks = corner_row(incidence.place % 3, &triangles[corner]);
             for (k, (block, slot)) in blocks.iter().zip(incidence.slots).enumerate() {
                 let at = if slot == FAR {
-                    let v = vertices[corner][k];
+                    let v = corners[corner].vertices[k];
                     self.row(vertex).partition_point(|&column| column < v)
                 } else {
                     slot as usize

@@ -50,13 +50,13 @@ pub struct DescentOptions {
     /// Steps at most. Default 200.
     pub max_steps: usize,
     /// Stop when half the Newton decrement, the decrease that the quadratic model promises, is below this fraction of the
-    /// energy. Default `1e-6`.
+    /// energy. Default `1e-5`.
     pub relative_decrease: f64,
 }
 
 impl Default for DescentOptions {
     fn default() -> Self {
-        Self { max_steps: 200, relative_decrease: 1e-6 }
+        Self { max_steps: 200, relative_decrease: 1e-5 }
     }
 }
 

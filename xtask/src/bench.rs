@@ -10,7 +10,7 @@ use clap::Parser;
 
 use crate::compare::machine;
 use estimates::{Estimate, collect};
-use growth::{Row, rows};
+use growth::{LARGE, Row, rows};
 
 /// Run the benches of the stages and write benches/RESULTS.md.
 #[derive(Debug, Parser)]
@@ -84,7 +84,8 @@ fn markdown(rows: &[Row], quick: bool) -> String {
     let mut text = format!(
         "# Time of each stage\n\nWritten by `cargo xtask bench{}`. {}, {} threads{memory}, {}, {}. The machine was shared with other work, so single \
          figures may be\ntoo large; growth says more. The meshes are square height fields with a bump (`qmesh::shapes::bump`), {}.\n\n\
-         Microseconds a quad; growth is the exponent k of time ~ quads^k, fitted to all sizes (1: linear).\n\n",
+         Microseconds a quad; growth is the exponent k of time ~ quads^k, fitted to all sizes (1: linear),\nand to \
+         those from {LARGE} quads on.\n\n",
         if quick { " --quick" } else { "" },
         machine.processor,
         machine.threads,
@@ -97,14 +98,17 @@ fn markdown(rows: &[Row], quick: bool) -> String {
     sizes.dedup();
     text += "| stage |";
     text += &sizes.iter().map(|size| format!(" {size} |")).collect::<String>();
-    text += &format!(" growth |\n| --- |{} ---: |\n", " ---: |".repeat(sizes.len()));
+    text += &format!(" growth | of large |\n| --- |{} ---: | ---: |\n", " ---: |".repeat(sizes.len()));
     for row in rows {
         text += &format!("| {} |", row.stage);
         for size in &sizes {
             let time = row.times.iter().find(|time| time.quads == *size);
             text += &time.map_or_else(|| " – |".to_owned(), |time| format!(" {} |", micros(time)));
         }
-        text += &row.growth.map_or_else(|| " – |\n".to_owned(), |growth| format!(" {growth:.2} |\n"));
+        for growth in [row.growth, row.growth_of_large] {
+            text += &growth.map_or_else(|| " – |".to_owned(), |growth| format!(" {growth:.2} |"));
+        }
+        text += "\n";
     }
     text
 }
@@ -140,7 +144,7 @@ mod tests {
         let estimates =
             [estimate(100, 2e5), estimate(10_000, 2e7), Estimate { stage: "y".into(), ..estimate(100, 5e3) }];
         let text = markdown(&rows(&estimates), true);
-        assert!(text.contains("| stage | 100 | 10000 | growth |\n"), "{text}");
-        assert!(text.contains("| x | 2.00 | 2.00 | 1.00 |\n| y | 0.050 | – | – |\n"), "{text}");
+        assert!(text.contains("| stage | 100 | 10000 | growth | of large |\n"), "{text}");
+        assert!(text.contains("| x | 2.00 | 2.00 | 1.00 | – |\n| y | 0.050 | – | – | – |\n"), "{text}");
     }
 }

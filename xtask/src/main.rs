@@ -33,6 +33,11 @@ const TASKS: &[(&str, &str, Task)] = &[
         fixtures::run,
     ),
     (
+        "instructions",
+        "count the instructions of small runs, into benches/instructions.toml; --check compares instead",
+        instructions::run,
+    ),
+    (
         "meshes",
         "unwrap every mesh in the folder QPARAM_MESHES, and compare seams (--python PROGRAM for the rivals), into docs/tables/meshes.md",
         meshes::run,
@@ -67,6 +72,7 @@ mod dial;
 mod disks;
 mod figure;
 mod fixtures;
+mod instructions;
 mod links;
 mod meshes;
 mod packing;

@@ -8,14 +8,22 @@ pub(super) struct Row {
     pub(super) times: Vec<Estimate>,
     /// The exponent; `None` for a single size.
     pub(super) growth: Option<f64>,
+    /// The exponent over the sizes from [`LARGE`] on, where what is done once no longer counts.
+    pub(super) growth_of_large: Option<f64>,
 }
+
+/// Quads from which a mesh is large.
+pub(super) const LARGE: usize = 10_000;
 
 /// One row a stage; the estimates are sorted by stage.
 pub(super) fn rows(estimates: &[Estimate]) -> Vec<Row> {
     let stages = estimates.chunk_by(|a, b| a.stage == b.stage);
-    stages
-        .map(|times| Row { stage: times[0].stage.clone(), times: times.to_vec(), growth: exponent(times) })
-        .collect()
+    let row = |times: &[Estimate]| {
+        let large: Vec<Estimate> = times.iter().filter(|time| time.quads >= LARGE).cloned().collect();
+        let stage = times[0].stage.clone();
+        Row { stage, times: times.to_vec(), growth: exponent(times), growth_of_large: exponent(&large) }
+    };
+    stages.map(row).collect()
 }
 
 /// The slope of log time over log quads, by least squares.
@@ -43,5 +51,19 @@ mod tests {
             assert!((exponent(&times).unwrap() - k).abs() < 1e-12);
         }
         assert_eq!(exponent(&[Estimate { stage: "x".into(), quads: 5, nanoseconds: 1.0 }]), None);
+        assert_eq!(exponent(&[]), None);
+    }
+
+    /// What small meshes cost beside their quads does not show in the growth of large ones.
+    #[test]
+    fn large_meshes_have_a_growth_of_their_own() {
+        let times = [(1024, 5e6), (10_000, 1e6), (1_000_000, 1e8)].map(|(quads, nanoseconds)| Estimate {
+            stage: "x".into(),
+            quads,
+            nanoseconds,
+        });
+        let row = &rows(&times)[0];
+        assert!((row.growth_of_large.unwrap() - 1.0).abs() < 1e-12);
+        assert!(row.growth.unwrap() < 0.6);
     }
 }

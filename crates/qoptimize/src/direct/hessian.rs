@@ -4,11 +4,13 @@
 //! near-kernel are the rigid motions: a tenth of the residual is reached in a few iterations at any size, and is enough of a
 //! direction while the map is far from the minimum.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::DescentError;
 use super::element::Edges;
-use super::layout::{Layout, Triangle};
+use super::layout::{Layout, Triangle, windows};
 use super::rest::{Corners, Rest};
 use super::system::{Factored, Iterated};
 use crate::qmesh::Vec2;
@@ -22,6 +24,8 @@ const FACTORED_AT_MOST: usize = 400_000;
 const FIRST_PATIENCE: usize = 2;
 /// Corners that one task takes.
 const CHUNK: usize = 2048;
+/// Corners whose derivatives are held at a time: those of all would be the largest part of the memory.
+const WINDOW: usize = 256 * CHUNK;
 
 /// How exact a direction has to be.
 #[derive(Clone, Copy, Debug)]
@@ -52,6 +56,8 @@ pub(super) struct Solved {
 /// A symmetric matrix of 2 × 2 blocks, and what solves with it.
 pub(super) struct Hessian {
     layout: Layout,
+    /// For each window of corners the vertices that they have; none where all corners are one window.
+    windows: Option<Vec<Vec<u32>>>,
     gradients: Vec<Edges>,
     triangles: Vec<Triangle>,
     system: System,
@@ -60,6 +66,24 @@ pub(super) struct Hessian {
     is_large: bool,
     /// Factorized solutions until iterations are tried again, and how often these have failed.
     patience: [usize; 2],
+}
+
+/// Fills in what the corners in `window` have, and returns the sums of their values, chunk by chunk.
+fn element_sums(
+    rest: &Rest,
+    window: &Range<usize>,
+    gradients: &mut [Edges],
+    triangles: &mut [Triangle],
+    shares: &(impl Fn(Corners<'_>, &mut [Edges], &mut [Triangle]) -> Result<f64, usize> + Sync),
+) -> Vec<Result<f64, usize>> {
+    rest.par_chunks_of(window.clone(), CHUNK)
+        .zip(gradients.par_chunks_mut(CHUNK))
+        .zip(triangles.par_chunks_mut(CHUNK))
+        .enumerate()
+        .map(|(chunk, ((corners, gradients), triangles))| {
+            shares(corners, gradients, triangles).map_err(|place| window.start + chunk * CHUNK + place)
+        })
+        .collect()
 }
 
 enum System {
@@ -77,9 +101,10 @@ impl Hessian {
         } else {
             System::Factored(Box::new(Factored::new(&layout)?))
         };
-        let (gradients, triangles) =
-            (vec![[0.0; 4]; rest.corners.len()], vec![[0.0; 10]; rest.corners.len()]);
-        Ok(Self { layout, gradients, triangles, system, spare: None, is_large, patience: [0, 0] })
+        let windows = (is_large && rest.corners.len() > WINDOW).then(|| windows(&rest.corners, WINDOW));
+        let length = rest.corners.len().min(WINDOW);
+        let (gradients, triangles) = (vec![[0.0; 4]; length], vec![[0.0; 10]; length]);
+        Ok(Self { layout, windows, gradients, triangles, system, spare: None, is_large, patience: [0, 0] })
     }
 
     /// Factorizes from here on, for a while where the system is a large one; the matrix has to be assembled again.
@@ -133,24 +158,34 @@ impl Hessian {
         rest: &Rest,
         shares: impl Fn(Corners<'_>, &mut [Edges], &mut [Triangle]) -> Result<f64, usize> + Sync,
     ) -> Result<(f64, Vec<f64>), usize> {
-        let Self { layout, gradients, triangles, system, .. } = self;
-        let chunks = rest
-            .par_chunks(CHUNK)
-            .zip(gradients.par_chunks_mut(CHUNK))
-            .zip(triangles.par_chunks_mut(CHUNK))
-            .enumerate();
-        let sums: Vec<Result<f64, usize>> = chunks
-            .map(|(chunk, ((corners, gradients), triangles))| {
-                shares(corners, gradients, triangles).map_err(|place| chunk * CHUNK + place)
-            })
-            .collect();
+        let Self { layout, gradients, triangles, system, windows, .. } = self;
+        let all = 0..rest.corners.len();
+        let mut gradient = vec![0.0; 2 * layout.vertex_count()];
+        if let (Some(windows), System::Iterated(system)) = (windows, &mut *system) {
+            system.clear();
+            let mut sums = Vec::new();
+            for (number, vertices) in windows.iter().enumerate() {
+                let window = number * WINDOW..((number + 1) * WINDOW).min(all.end);
+                let (gradients, triangles) = (&mut gradients[..window.len()], &mut triangles[..window.len()]);
+                sums.extend(element_sums(rest, &window, gradients, triangles, &shares));
+                system.add(vertices, |row, blocks| {
+                    layout.gather_row(row, &window, triangles, &rest.corners, blocks);
+                });
+                layout.add_gradient(&mut gradient, &window, Some(vertices), gradients);
+            }
+            return Ok((sums.into_iter().sum::<Result<f64, usize>>()?, gradient));
+        }
+        gradients.resize(all.end, [0.0; 4]);
+        triangles.resize(all.end, [0.0; 10]);
+        let sums = element_sums(rest, &all, gradients, triangles, &shares);
         let value = sums.into_iter().sum::<Result<f64, usize>>()?;
-        let row = |row, blocks: &mut _| layout.gather_row(row, triangles, &rest.corners, blocks);
+        let row = |row, blocks: &mut _| layout.gather_row(row, &all, triangles, &rest.corners, blocks);
         match system {
             System::Factored(system) => system.fill(row),
             System::Iterated(system) => system.fill(row),
         }
-        Ok((value, layout.gather_gradient(gradients)))
+        layout.add_gradient(&mut gradient, &all, None, gradients);
+        Ok((value, gradient))
     }
 
     /// Takes the vertices marked in `fixed` out of the system; returns the gradient without them.

@@ -3,6 +3,8 @@
 //! Two unknowns a vertex, so 2 × 2 blocks. Every vertex gathers what its corner triangles say about it, in the order of the
 //! corners. So rows are filled in parallel, and the sums do not depend on the number of threads.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::element::Edges;
@@ -69,13 +71,38 @@ impl Layout {
         &self.incidences[range]
     }
 
-    /// The gradient, two entries a vertex, from that of each corner by its edge vectors.
-    pub(super) fn gather_gradient(&self, corners: &[Edges]) -> Vec<f64> {
-        let mut gradient = vec![0.0; 2 * self.vertex_count()];
-        let rows = gradient.as_chunks_mut::<2>().0.par_iter_mut().with_min_len(CHUNK);
-        rows.enumerate().for_each(|(vertex, sum)| {
-            for incidence in self.incidences(vertex) {
-                let [f1x, f1y, f0x, f0y] = corners[incidence.place as usize / 3];
+    /// What the corners in `window` have to do with a vertex.
+    fn incidences_in(&self, vertex: usize, window: &Range<usize>) -> &[Incidence] {
+        let all = self.incidences(vertex);
+        let before = |bound: usize| all.partition_point(|incidence| (incidence.place as usize) < 3 * bound);
+        &all[before(window.start)..before(window.end)]
+    }
+
+    /// Adds to the gradient, two entries a vertex, what the corners in `window` add to it: `corners` are their gradients by their
+    /// edge vectors. `vertices` are those that they have, ascending, or none: all.
+    pub(super) fn add_gradient(
+        &self,
+        gradient: &mut [f64],
+        window: &Range<usize>,
+        vertices: Option<&[u32]>,
+        corners: &[Edges],
+    ) {
+        let mut pairs = gradient.as_chunks_mut::<2>().0.iter_mut().enumerate();
+        let rows: Vec<(usize, &mut [f64; 2])> = match vertices {
+            None => pairs.collect(),
+            Some(vertices) => {
+                let mut passed = 0;
+                let mut pick = |v: u32| {
+                    let row = pairs.nth((v as usize).checked_sub(passed)?);
+                    passed = v as usize + 1;
+                    row
+                };
+                vertices.iter().filter_map(|&v| pick(v)).collect()
+            }
+        };
+        rows.into_par_iter().with_min_len(CHUNK).for_each(|(vertex, sum)| {
+            for incidence in self.incidences_in(vertex, window) {
+                let [f1x, f1y, f0x, f0y] = corners[incidence.place as usize / 3 - window.start];
                 let [x, y] = match incidence.place % 3 {
                     0 => [-f1x - f0x, -f1y - f0y],
                     1 => [f1x, f1y],
@@ -85,22 +112,22 @@ impl Layout {
                 sum[1] += y;
             }
         });
-        gradient
     }
 
-    /// Overwrites `row` with the blocks of the vertex's row.
+    /// Overwrites `row` with what the corners in `window` add to the blocks of the vertex's row: `triangles` are theirs, `corners` all.
     pub(super) fn gather_row(
         &self,
         vertex: usize,
+        window: &Range<usize>,
         triangles: &[Triangle],
         corners: &[RestCorner],
         row: &mut Vec<Block>,
     ) {
         row.clear();
         row.resize(self.row(vertex).len(), [0.0; 4]);
-        for incidence in self.incidences(vertex) {
+        for incidence in self.incidences_in(vertex, window) {
             let corner = incidence.place as usize / 3;
-            let blocks = corner_row(incidence.place % 3, &triangles[corner]);
+            let blocks = corner_row(incidence.place % 3, &triangles[corner - window.start]);
             for (k, (block, slot)) in blocks.iter().zip(incidence.slots).enumerate() {
                 let at = if slot == FAR {
                     let v = corners[corner].vertices[k];
@@ -201,4 +228,64 @@ fn split<'a, T>(starts: &[u32], values: &'a mut [T]) -> Vec<&'a mut [T]> {
         rest = tail;
     }
     rows
+}
+
+/// Per window of `size` corners the vertices that they have, ascending.
+pub(super) fn windows(corners: &[RestCorner], size: usize) -> Vec<Vec<u32>> {
+    let vertices = |window: &[RestCorner]| {
+        let mut vertices: Vec<u32> = window.iter().flat_map(|corner| corner.vertices).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        vertices.shrink_to_fit();
+        vertices
+    };
+    corners.par_chunks(size).map(vertices).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::convexity::Exempt;
+    use crate::direct::rest::Rest;
+    use crate::qmesh::shapes;
+
+    /// What windows of corners add up to is the same to the bit as all corners at once.
+    #[test]
+    fn windows_add_up() {
+        let mesh = shapes::jittered_grid(9, 7, 0.3, 2);
+        let rest = Rest::new(&mesh, &Exempt::find(&mesh));
+        let layout = Layout::new(&rest.corners, rest.vertex_count);
+        let count = rest.corners.len();
+        let number = |k: usize| (k as f64 * 0.7).sin() * 1e3_f64.powi((k % 5) as i32);
+        let gradients: Vec<Edges> = (0..count).map(|c| std::array::from_fn(|i| number(4 * c + i))).collect();
+        let triangles: Vec<Triangle> =
+            (0..count).map(|c| std::array::from_fn(|i| number(10 * c + i))).collect();
+        let mut whole = vec![0.0; 2 * rest.vertex_count];
+        layout.add_gradient(&mut whole, &(0..count), None, &gradients);
+        const SIZE: usize = 37;
+        let mut added = vec![0.0; whole.len()];
+        let mut seen = 0;
+        for (number, vertices) in windows(&rest.corners, SIZE).iter().enumerate() {
+            let window = number * SIZE..((number + 1) * SIZE).min(count);
+            layout.add_gradient(&mut added, &window, Some(vertices), &gradients[window.clone()]);
+            assert!(vertices.is_sorted_by(|a, b| a < b));
+            seen += vertices.len();
+        }
+        assert_eq!(whole, added);
+        assert!(seen > rest.vertex_count);
+        let (mut blocks, mut part) = (Vec::new(), Vec::new());
+        for vertex in 0..rest.vertex_count {
+            layout.gather_row(vertex, &(0..count), &triangles, &rest.corners, &mut blocks);
+            let mut sums = vec![[0.0; 4]; blocks.len()];
+            for start in (0..count).step_by(count / 2 + 1) {
+                let window = start..(start + count / 2 + 1).min(count);
+                layout.gather_row(vertex, &window, &triangles[window.clone()], &rest.corners, &mut part);
+                sums.iter_mut().zip(&part).for_each(|(sum, part)| (0..4).for_each(|i| sum[i] += part[i]));
+            }
+            let close = |(a, b): (&Block, &Block)| {
+                (0..4).all(|i| (a[i] - b[i]).abs() <= 1e-12 * a[i].abs().max(1e12))
+            };
+            assert!(blocks.iter().zip(&sums).all(close), "{vertex}");
+        }
+    }
 }

@@ -2,6 +2,8 @@
 //!
 //! Lengths are in units of about the square root of the surface area, so energies and tolerances are free of units.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use crate::qmesh::{CornerId, FaceId, QuadMesh, Vec2, Vec3, VertexId};
@@ -117,9 +119,18 @@ impl Rest {
 
     /// All corners in chunks of `size`.
     pub(super) fn par_chunks(&self, size: usize) -> impl IndexedParallelIterator<Item = Corners<'_>> {
-        let count = self.corners.len();
-        (0..count.div_ceil(size)).into_par_iter().map(move |chunk| {
-            let range = chunk * size..((chunk + 1) * size).min(count);
+        self.par_chunks_of(0..self.corners.len(), size)
+    }
+
+    /// The corners in `window` in chunks of `size`.
+    pub(super) fn par_chunks_of(
+        &self,
+        window: Range<usize>,
+        size: usize,
+    ) -> impl IndexedParallelIterator<Item = Corners<'_>> {
+        (0..window.len().div_ceil(size)).into_par_iter().map(move |chunk| {
+            let start = window.start + chunk * size;
+            let range = start..(start + size).min(window.end);
             let frames = if self.frames.is_empty() { &[] } else { &self.frames[range.clone()] };
             Corners { corners: &self.corners[range], frames }
         })

@@ -151,6 +151,24 @@ impl Iterated {
         });
     }
 
+    /// Sets all blocks to zero, to be added to.
+    pub(super) fn clear(&mut self) {
+        self.matrix_mut().clear();
+    }
+
+    /// Adds to the rows of `vertices`, which ascend, what `row(vertex, blocks)` gives.
+    pub(super) fn add(&mut self, vertices: &[u32], row: impl Fn(usize, &mut Vec<Block>) + Sync + Send) {
+        self.matrix_mut().change_rows_with(vertices, Vec::new, |blocks, vertex, values| {
+            row(vertex, blocks);
+            for (value, [xx, xy, yx, yy]) in values.iter_mut().zip(blocks) {
+                let sums = [[&mut *xx, xy], [yx, yy]];
+                for (value, sums) in value.iter_mut().zip(sums) {
+                    value.iter_mut().zip(sums).for_each(|(value, sum)| *value += *sum);
+                }
+            }
+        });
+    }
+
     pub(super) fn fix(&mut self, fixed: &[bool]) {
         if self.fixed != fixed {
             self.fixed = fixed.to_vec();

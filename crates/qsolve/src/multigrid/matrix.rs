@@ -79,6 +79,36 @@ impl<const B: usize> BlockMatrix<B> {
         });
     }
 
+    /// Sets every block to zero.
+    pub fn clear(&mut self) {
+        self.values.par_iter_mut().with_min_len(1 << 14).for_each(|block| *block = [[0.0; B]; B]);
+    }
+
+    /// Changes the block rows `rows`, which ascend, in parallel: `change(scratch, row, blocks)`, with something to work in that is
+    /// made once for many rows. Rows out of order are left as they are.
+    pub fn change_rows_with<S>(
+        &mut self,
+        rows: &[u32],
+        scratch: impl Fn() -> S + Sync + Send,
+        change: impl Fn(&mut S, usize, &mut [Block<B, B>]) + Sync + Send,
+    ) {
+        let mut parts = Vec::with_capacity(rows.len());
+        let (mut rest, mut passed) = (&mut self.values[..], 0);
+        for &row in rows {
+            let Some(range) = self.starts.get(row as usize..row as usize + 2) else { continue };
+            let (start, end) = (range[0] as usize, range[1] as usize);
+            if start < passed {
+                continue;
+            }
+            let (_, tail) = rest.split_at_mut(start - passed);
+            let (part, tail) = tail.split_at_mut(end - start);
+            parts.push((row as usize, part));
+            (rest, passed) = (tail, end);
+        }
+        let parts = parts.into_par_iter().with_min_len(MIN_ROWS);
+        parts.for_each_init(scratch, |scratch, (row, part)| change(scratch, row, part));
+    }
+
     /// The diagonal block of a row.
     #[must_use]
     pub fn diagonal(&self, row: usize) -> Block<B, B> {

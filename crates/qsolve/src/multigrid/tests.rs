@@ -56,3 +56,27 @@ fn aggregates_cover() {
     }
     assert!(seen.iter().all(|&times| times == 1));
 }
+
+/// Only the rows that are named change, each once, with what is theirs; rows out of order or out of range are left alone.
+#[test]
+fn only_the_named_rows_change() {
+    let mut matrix = strip(3000);
+    let named: Vec<u32> = (0..3000).filter(|row| row % 7 == 3 || row % 11 == 0).collect();
+    let mut asked = named.clone();
+    asked.extend([5, 4000]);
+    for _ in 0..2 {
+        matrix.change_rows_with(
+            &asked,
+            || (),
+            |(), row, blocks| {
+                blocks.iter_mut().flatten().flatten().for_each(|value| *value += row as f64);
+            },
+        );
+    }
+    for row in 0..3000 {
+        let expected = if named.contains(&(row as u32)) { 2.0 * row as f64 } else { 0.0 };
+        assert!(matrix.row(row).1.iter().flatten().flatten().all(|&value| value == expected), "{row}");
+    }
+    matrix.clear();
+    assert!((0..3000).all(|row| matrix.row(row).1.iter().flatten().flatten().all(|&value| value == 0.0)));
+}

@@ -13,11 +13,12 @@
 
 use qmesh::observe::Observer;
 use qmesh::{EdgeData, QuadMesh, Vec2, Vec3, VertexData};
+use rayon::prelude::*;
 use robust::{Coord, orient2d};
 
 use super::StartError;
 use super::even::evened;
-use super::rest::Rest;
+use super::rest::{Rest, RestCorner};
 use super::untangle::untangle;
 use crate::convexity::Exempt;
 use crate::qmesh;
@@ -25,6 +26,8 @@ use crate::qsolve::{DMatrix, SolveOptions, Structure, Triplets, solve};
 
 /// A start whose smallest corner is below this fraction of the mean corner is tried to be bettered.
 const THIN: f64 = 1e-8;
+/// Corners that one task takes.
+const CHUNK: usize = 4096;
 /// Exponents of the torsion weights: 2 is best on shallow shapes, 4 on nested ones.
 const EXPONENTS: [i32; 2] = [2, 4];
 
@@ -200,8 +203,26 @@ impl Verdict {
 }
 
 pub(super) fn judge(rest: &Rest, uv: &[Vec2]) -> Verdict {
+    // In chunks of fixed size, so that the mean does not depend on the number of threads.
+    let chunks: Vec<Verdict> = rest
+        .corners
+        .par_chunks(CHUNK)
+        .zip(rest.ids.par_chunks(CHUNK))
+        .map(|(corners, ids)| judge_some(corners, ids, uv))
+        .collect();
+    let none = Verdict { bad: 0, worst: qmesh::CornerId(0), smallest: f64::INFINITY, mean: 0.0 };
+    let all = chunks.into_iter().fold(none, |all, chunk| {
+        let worst = if chunk.smallest.is_nan() || chunk.smallest < all.smallest { &chunk } else { &all };
+        let (worst, smallest) = (worst.worst, worst.smallest);
+        Verdict { bad: all.bad + chunk.bad, worst, smallest, mean: all.mean + chunk.mean }
+    });
+    Verdict { mean: all.mean / rest.corners.len() as f64, ..all }
+}
+
+/// The same for some of the corners, with the sum in place of the mean.
+fn judge_some(corners: &[RestCorner], ids: &[qmesh::CornerId], uv: &[Vec2]) -> Verdict {
     let mut verdict = Verdict { bad: 0, worst: qmesh::CornerId(0), smallest: f64::INFINITY, mean: 0.0 };
-    for (corner, &id) in rest.corners.iter().zip(&rest.ids) {
+    for (corner, &id) in corners.iter().zip(ids) {
         let [here, next, previous] = corner.vertices.map(|v| uv[v as usize]);
         let turn = orient2d(coord(here), coord(next), coord(previous));
         // The descent computes in floating point: what only exact arithmetic can tell from a flip is of no use to it.
@@ -212,7 +233,7 @@ pub(super) fn judge(rest: &Rest, uv: &[Vec2]) -> Verdict {
         if turn.is_nan() || turn < verdict.smallest {
             (verdict.smallest, verdict.worst) = (turn, id);
         }
-        verdict.mean += turn.abs() / rest.corners.len() as f64;
+        verdict.mean += turn.abs();
     }
     verdict
 }

@@ -11,6 +11,9 @@ use crate::exit::Exit;
 const ERROR: Style = AnsiColor::Red.on_default().bold();
 const HELP: Style = AnsiColor::Cyan.on_default();
 
+/// What an interruption left behind: nothing.
+pub const INTERRUPTED: &str = "interrupted: nothing was written";
+
 /// Why a command ended early.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Failure {
@@ -70,7 +73,7 @@ impl Failure {
     }
 
     pub(crate) fn interrupted() -> Self {
-        Self::new(Exit::Interrupted, "interrupted: nothing was written")
+        Self::new(Exit::Interrupted, INTERRUPTED)
     }
 
     /// The message for people, with a newline at its end.

@@ -12,6 +12,8 @@ pub(crate) enum Phase {
     Watched = 1,
     /// A temporary file exists: the writer looks at the request before and after, and cleans up.
     Writing = 2,
+    /// The process is about to end: no work begins any more.
+    Ending = 3,
 }
 
 /// The request to stop, shared between the signal handler and the work.
@@ -56,6 +58,13 @@ impl Interrupt {
         phase == Phase::Free as u8 || (again && phase == Phase::Watched as u8)
     }
 
+    /// Ends the work that is observed but has not looked yet: `true` says that the process may exit now, and that nothing will be
+    /// written any more. While a file is being written this is refused.
+    pub fn end_what_is_observed(&self) -> bool {
+        let (from, to) = (Phase::Watched as u8, Phase::Ending as u8);
+        self.phase.compare_exchange(from, to, SeqCst, SeqCst).is_ok()
+    }
+
     /// Whether somebody asked to stop.
     pub fn is_requested(&self) -> bool {
         let count = |left: usize| (left != NEVER).then(|| left.saturating_sub(1));
@@ -65,11 +74,22 @@ impl Interrupt {
         self.requested.load(SeqCst)
     }
 
+    /// Goes over to `phase` and returns the one before; `None` when the process is about to end.
+    fn enter(&self, phase: Phase) -> Option<u8> {
+        let unless_ending = |now: u8| (now != Phase::Ending as u8).then_some(phase as u8);
+        self.phase.fetch_update(SeqCst, SeqCst, unless_ending).ok()
+    }
+
     /// Runs `work` in `phase`.
     pub(crate) fn during<T>(&self, phase: Phase, work: impl FnOnce() -> T) -> T {
-        let before = self.phase.swap(phase as u8, SeqCst);
+        let before = loop {
+            match self.enter(phase) {
+                Some(before) => break before,
+                None => std::thread::park(),
+            }
+        };
         let result = work();
-        self.phase.store(before, SeqCst);
+        let _ = self.phase.compare_exchange(phase as u8, before, SeqCst, SeqCst);
         result
     }
 }
@@ -89,7 +109,22 @@ mod tests {
         let interrupt = Interrupt::new();
         interrupt.during(Phase::Writing, || {
             assert!(!interrupt.request() && !interrupt.request(), "the temporary file has to go first");
+            assert!(!interrupt.end_what_is_observed(), "not even the impatient");
         });
         assert!(interrupt.is_requested());
+    }
+
+    /// Once the end of observed work is decided, no file is begun any more.
+    #[test]
+    fn nothing_begins_once_the_end_is_decided() {
+        let interrupt = Interrupt::new();
+        assert!(!interrupt.end_what_is_observed(), "nobody is at work");
+        interrupt.during(Phase::Watched, || {
+            interrupt.during(Phase::Writing, || assert!(!interrupt.end_what_is_observed()));
+            assert!(interrupt.end_what_is_observed());
+            assert!(!interrupt.end_what_is_observed(), "once is enough");
+            assert_eq!(interrupt.enter(Phase::Writing), None);
+        });
+        assert_eq!(interrupt.enter(Phase::Watched), None);
     }
 }

@@ -72,7 +72,7 @@ use serde::Serialize;
 
 pub use config::Environment;
 pub use exit::Exit;
-pub use failure::Failure;
+pub use failure::{Failure, INTERRUPTED};
 pub use interrupt::Interrupt;
 pub use qoptimize::{self, qcurv, qembed, qmesh, qsimplify, qsolve};
 pub use report::SCHEMA_VERSION;

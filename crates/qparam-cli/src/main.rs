@@ -3,17 +3,28 @@
 use std::io::{self, IsTerminal};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Duration;
 
 use anstream::{AutoStream, ColorChoice};
-use qparam_cli::{Environment, Exit, Interrupt, Streams, run};
+use qparam_cli::{Environment, Exit, INTERRUPTED, Interrupt, Streams, run};
+
+/// How long work has to stop by itself, and to say so itself.
+const PATIENCE: Duration = Duration::from_millis(40);
 
 static INTERRUPT: Interrupt = Interrupt::new();
 
 fn main() -> ExitCode {
     // Without a handler ctrl-C still ends the process, only less politely.
     let _ = ctrlc::set_handler(|| {
+        let exit = || std::process::exit(i32::from(Exit::Interrupted.code()));
         if INTERRUPT.request() {
-            std::process::exit(i32::from(Exit::Interrupted.code()));
+            exit();
+        }
+        // Work looks between its steps, which take seconds on large meshes.
+        std::thread::sleep(PATIENCE);
+        if INTERRUPT.end_what_is_observed() {
+            eprintln!("error: {INTERRUPTED}");
+            exit();
         }
     });
     let mut streams = Streams {

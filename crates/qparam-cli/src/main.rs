@@ -1,6 +1,6 @@
 //! The `qparam` command: connects the process to the library.
 
-use std::io::{self, IsTerminal};
+use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
@@ -23,7 +23,7 @@ fn main() -> ExitCode {
         // Work looks between its steps, which take seconds on large meshes.
         std::thread::sleep(PATIENCE);
         if INTERRUPT.end_what_is_observed() {
-            eprintln!("error: {INTERRUPTED}");
+            let _ = writeln!(io::stderr(), "error: {INTERRUPTED}");
             exit();
         }
     });

@@ -4,7 +4,7 @@
 //! around it, by cells of a grid; covers are placed one after the other, large ones first, in the lowest row and there
 //! at the leftmost place where no cell is taken, which fills the holes of large islands with small ones. All places in a
 //! row are tested at once, 64 to a machine word. What counts as large is tried in several ways, lying and standing
-//! ([`order`]), as long as there are few islands. The largest scale at which all find a place is found by bisection.
+//! (`pack/order.rs`), as long as there are few islands. The largest scale at which all find a place is found by bisection.
 //!
 //! The cover contains its island with a slack of a millionth of a cell, far more than coordinates round: islands whose
 //! covers share no cell do not overlap, and lie a margin apart.

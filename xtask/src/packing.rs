@@ -127,15 +127,6 @@ fn packed(file: &Path, options: &PackOptions) -> Result<(u64, [f64; 3]), String>
     let start = Instant::now();
     let found = pack(&shapes, options);
     let seconds = start.elapsed().as_secs_f64();
-    let area: f64 = shapes.iter().map(area).sum::<f64>() * found.scale * found.scale;
+    let area: f64 = shapes.iter().map(Shape::area).sum::<f64>() * found.scale * found.scale;
     Ok((shapes.len() as u64, [area, area / (found.extent.x * found.extent.y), seconds]))
-}
-
-fn area(shape: &Shape<'_>) -> f64 {
-    let face = |range: &[u32]| {
-        let corners = &shape.uv[range[0] as usize..range[1] as usize];
-        let fan = corners.windows(2).skip(1).map(|pair| (pair[0] - corners[0]).perp(&(pair[1] - corners[0])));
-        0.5 * fan.sum::<f64>().abs()
-    };
-    shape.face_start.windows(2).map(face).sum()
 }

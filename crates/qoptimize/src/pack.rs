@@ -46,6 +46,20 @@ pub struct Shape<'a> {
     pub uv: &'a [Vec2],
 }
 
+impl Shape<'_> {
+    /// The area of the island, faces taken as they are.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        let face = |range: &[u32]| {
+            let corners = &self.uv[range[0] as usize..range[1] as usize];
+            let fan =
+                corners.windows(2).skip(1).map(|pair| (pair[0] - corners[0]).perp(&(pair[1] - corners[0])));
+            0.5 * fan.sum::<f64>().abs()
+        };
+        self.face_start.windows(2).map(face).sum()
+    }
+}
+
 /// Where islands are put: `scale · p + offset`.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -104,7 +118,7 @@ pub fn pack(shapes: &[Shape<'_>], options: &PackOptions) -> Packed {
 /// around them. For an island that hangs together the latter is `A s² + margin (w + h) s + margin²` at least.
 fn largest_scale(shapes: &[Shape<'_>], boxes: &[[Vec2; 2]], margin: f64, side: u32) -> f64 {
     let sizes = || boxes.iter().map(|[low, high]| high - low);
-    let area: f64 = shapes.iter().map(area).sum();
+    let area: f64 = shapes.iter().map(Shape::area).sum();
     let around: f64 = 0.5 * margin * sizes().map(|size| size.sum()).sum::<f64>();
     let side = f64::from(side);
     let room = side * side - shapes.len() as f64 * margin * margin;
@@ -241,14 +255,4 @@ fn bounds(shape: &Shape<'_>) -> [Vec2; 2] {
     let low = shape.uv.iter().copied().reduce(|a, b| a.inf(&b)).unwrap_or_else(Vec2::zeros);
     let high = shape.uv.iter().copied().reduce(|a, b| a.sup(&b)).unwrap_or_else(Vec2::zeros);
     [low, high]
-}
-
-/// The area of an island, faces taken as they are.
-fn area(shape: &Shape<'_>) -> f64 {
-    let face = |range: &[u32]| {
-        let corners = &shape.uv[range[0] as usize..range[1] as usize];
-        let fan = corners.windows(2).skip(1).map(|pair| (pair[0] - corners[0]).perp(&(pair[1] - corners[0])));
-        0.5 * fan.sum::<f64>().abs()
-    };
-    shape.face_start.windows(2).map(face).sum()
 }

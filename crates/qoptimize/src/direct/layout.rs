@@ -219,7 +219,7 @@ fn blocks(corners: &[RestCorner], starts: &[u32], incidences: &[Incidence]) -> (
 }
 
 /// `values` cut at `starts`.
-fn split<'a, T>(starts: &[u32], values: &'a mut [T]) -> Vec<&'a mut [T]> {
+pub(super) fn split<'a, T>(starts: &[u32], values: &'a mut [T]) -> Vec<&'a mut [T]> {
     let mut rest = values;
     let mut rows = Vec::with_capacity(starts.len() - 1);
     for pair in starts.windows(2) {

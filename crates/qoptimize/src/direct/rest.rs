@@ -199,7 +199,7 @@ pub(super) fn shortest_edge(mesh: &QuadMesh) -> f64 {
     SHORTEST_EDGE * mean_edge(mesh)
 }
 
-fn mean_edge(mesh: &QuadMesh) -> f64 {
+pub(super) fn mean_edge(mesh: &QuadMesh) -> f64 {
     mesh.edges().map(|edge| mesh.edge_length(edge)).sum::<f64>() / mesh.edge_count() as f64
 }
 

@@ -5,6 +5,9 @@ use rayon::prelude::*;
 
 use crate::qmesh::{Id, QuadMesh, Vec2, VertexId};
 
+use super::super::layout::split;
+use super::super::rest::mean_edge;
+
 /// Iterations of conjugate gradients: what is wrong at the start is wrong within a cluster, so few are enough.
 const ITERATIONS: usize = 10;
 /// Less is left of the residual: nothing is gained by further ones.
@@ -25,7 +28,7 @@ pub(super) struct Fit {
 impl Fit {
     pub(super) fn new(mesh: &QuadMesh, gradients: &[Matrix2x3<f64>], unit: f64) -> Self {
         let count = mesh.vertex_count();
-        let mean = mesh.edges().map(|edge| mesh.edge_length(edge)).sum::<f64>() / mesh.edge_count() as f64;
+        let mean = mean_edge(mesh);
         let mut starts = vec![0];
         let mut neighbors = Vec::with_capacity(2 * mesh.edge_count());
         for vertex in mesh.vertices() {
@@ -43,17 +46,10 @@ impl Fit {
         let shortest = SHORTEST * mean;
         let Self { starts, neighbors, weights, diagonal, rhs } = &mut fit;
         let weight = |a: usize, b: u32| (mean / (point(b as usize) - point(a)).norm().max(shortest)).powi(2);
-        let weigh = |a: usize, (weights, neighbors): (&mut [f64], &[u32])| {
-            weights.iter_mut().zip(neighbors).for_each(|(weight_of_edge, &b)| *weight_of_edge = weight(a, b));
-        };
-        let mut rest = &mut weights[..];
-        let mut rows = Vec::with_capacity(count);
-        for pair in starts.windows(2) {
-            let (row, tail) = rest.split_at_mut((pair[1] - pair[0]) as usize);
-            rows.push((row, &neighbors[pair[0] as usize..pair[1] as usize]));
-            rest = tail;
-        }
-        rows.into_par_iter().with_min_len(CHUNK).enumerate().for_each(|(a, row)| weigh(a, row));
+        split(starts, weights).into_par_iter().with_min_len(CHUNK).enumerate().for_each(|(a, row)| {
+            let neighbors = &neighbors[starts[a] as usize..starts[a + 1] as usize];
+            row.iter_mut().zip(neighbors).for_each(|(of_edge, &b)| *of_edge = weight(a, b));
+        });
         rhs.par_iter_mut().zip(diagonal).with_min_len(CHUNK).enumerate().for_each(|(a, (rhs, diagonal))| {
             for at in starts[a] as usize..starts[a + 1] as usize {
                 let b = neighbors[at] as usize;

@@ -131,8 +131,8 @@ fn timed(
     (result, clock.looks.into_inner())
 }
 
-/// Whenever time is up, there is a certified map that says so, or none because there was none yet; with more time the energy is
-/// never higher, and time that suffices changes nothing.
+/// Whenever time is up, there is a map that says so and folds nowhere, or none because there was none yet; with more time the energy
+/// is never higher, and time that suffices changes nothing.
 #[test]
 fn time_may_be_up_at_any_moment() {
     let mut maps = 0;
@@ -152,7 +152,18 @@ fn time_may_be_up_at_any_moment() {
                     Err(AtlasError::OutOfTime) if islands == 1 => continue,
                     Err(error) => panic!("{name} of {shape}, look {late}: {error}"),
                 };
-                assert!(map.certificate.holds, "{name} of {shape}, look {late}: {}", map.certificate);
+                // Least squares may fold a tube: what time did not end is as it is with all the time there is.
+                let is_valid =
+                    |island: &atlas::Island| island.flipped_corners + island.boundary_crossings == 0;
+                assert!(
+                    map.certificate.holds || !whole.certificate.holds,
+                    "{name} of {shape}, look {late}: {}",
+                    map.certificate
+                );
+                for (island, whole) in map.islands.iter().zip(&whole.islands) {
+                    let is_whole = !island.ended_by_time && island.flipped_corners == whole.flipped_corners;
+                    assert!(is_whole || is_valid(island), "{name} of {shape}, look {late}: {island:?}");
+                }
                 maps += 1;
                 if in_turn {
                     let island = &map.islands[0];

@@ -44,18 +44,14 @@ impl<'a> Krylov<'a> {
         Ok(Self { matrix, structure, preconditioner, max_iterations })
     }
 
-    /// Preconditioned by a multigrid cycle, of the matrix's symmetric neighbour when it is not symmetric.
+    /// BiCGStab preconditioned by a multigrid cycle of the matrix's symmetric neighbour.
     ///
     /// # Errors
-    /// As [`Krylov::new`]; and when the matrix, or its neighbour, is not positive definite.
-    pub fn multigrid(
-        matrix: &'a CsrMatrix<f64>,
-        structure: Structure,
-        max_iterations: usize,
-    ) -> Result<Self, SolveError> {
+    /// As [`Krylov::new`]; and when the neighbour is not positive definite.
+    pub fn multigrid(matrix: &'a CsrMatrix<f64>, max_iterations: usize) -> Result<Self, SolveError> {
         check_matrix(matrix)?;
-        let preconditioner = Preconditioner::multigrid(matrix, structure)?;
-        Ok(Self { matrix, structure, preconditioner, max_iterations })
+        let preconditioner = Preconditioner::multigrid(matrix)?;
+        Ok(Self { matrix, structure: Structure::General, preconditioner, max_iterations })
     }
 
     /// Cycles from the true residual until it is small enough or stalls.

@@ -40,6 +40,7 @@ mod krylov;
 
 mod conjugate;
 pub mod multigrid;
+mod scalar;
 
 mod incomplete;
 mod preconditioner;
@@ -59,5 +60,6 @@ pub use nalgebra::DMatrix;
 pub use nalgebra_sparse::{self, CsrMatrix};
 pub use options::{Backend, SolveMethod, SolveOptions, SolveRecord, Structure};
 pub use qsimplify::{self, qcurv, qmesh};
+pub use scalar::ScalarMultigrid;
 pub use solve::solve;
 pub use solver::LinearSolver;

@@ -5,7 +5,8 @@ use rayon::prelude::*;
 
 use crate::factors::{Analysis, Factors};
 use crate::incomplete::IncompleteLu;
-use crate::multigrid::{Multigrid, MultigridOptions};
+use crate::multigrid::BlockMatrix;
+use crate::scalar::ScalarMultigrid;
 use crate::symmetrized::symmetrized;
 use crate::{SolveError, Structure};
 
@@ -14,8 +15,8 @@ use crate::{SolveError, Structure};
 pub(crate) enum Preconditioner {
     /// The Cholesky factor of a symmetric neighbour.
     Symmetrized(Box<(Analysis, Factors)>),
-    /// A multigrid cycle of the matrix or, when that is not symmetric, of its symmetric neighbour.
-    Multigrid(Box<Multigrid<1, 1>>),
+    /// A multigrid cycle of a symmetric neighbour.
+    Multigrid(Box<ScalarMultigrid>),
     /// ILU(0).
     Incomplete(IncompleteLu),
     /// The inverse of the diagonal.
@@ -37,14 +38,10 @@ impl Preconditioner {
             .unwrap_or_else(|| Self::Jacobi(inverse_diagonal(matrix)))
     }
 
-    /// A multigrid cycle.
-    pub(crate) fn multigrid(matrix: &CsrMatrix<f64>, structure: Structure) -> Result<Self, SolveError> {
-        let options = MultigridOptions::default();
-        let multigrid = match structure {
-            Structure::SymmetricPositiveDefinite => Multigrid::scalar(matrix, options)?,
-            Structure::General => Multigrid::scalar(&symmetrized(matrix)?, options)?,
-        };
-        Ok(Self::Multigrid(Box::new(multigrid)))
+    /// A multigrid cycle of the symmetric neighbour.
+    pub(crate) fn multigrid(matrix: &CsrMatrix<f64>) -> Result<Self, SolveError> {
+        let neighbour = BlockMatrix::from_csr(&symmetrized(matrix)?)?;
+        Ok(Self::Multigrid(Box::new(ScalarMultigrid::new(neighbour, 0)?)))
     }
 
     /// `z = M⁻¹ r`.

@@ -6,6 +6,8 @@ use nalgebra_sparse::CsrMatrix;
 use crate::check::{check_bound, check_matrix, check_rhs};
 use crate::direct::Symbolic;
 use crate::krylov::Krylov;
+use crate::multigrid::BlockMatrix;
+use crate::scalar::ScalarMultigrid;
 use crate::solver::LinearSolver;
 use crate::{Backend, SolveError, SolveMethod, SolveOptions, SolveRecord, Structure};
 
@@ -55,8 +57,15 @@ pub fn solve(
     if matrix.nrows() == 0 {
         return Ok((rhs.clone(), nothing_to_solve(structure)));
     }
-    let multigrid =
-        || Krylov::multigrid(matrix, structure, options.max_iterations)?.solve(rhs, options.residual_bound);
+    let multigrid = || match structure {
+        Structure::SymmetricPositiveDefinite => {
+            ScalarMultigrid::new(BlockMatrix::from_csr(matrix)?, options.max_iterations)?
+                .solve(rhs, options.residual_bound)
+        }
+        Structure::General => {
+            Krylov::multigrid(matrix, options.max_iterations)?.solve(rhs, options.residual_bound)
+        }
+    };
     match (options.backend, structure) {
         (Backend::Direct, _) => direct(),
         (Backend::Multigrid, _) => multigrid().or_else(|_| direct()),

@@ -4,7 +4,7 @@ use super::block::square;
 use super::matrix::BlockMatrix;
 
 /// Stands for "in no aggregate": a row that is coupled to nothing, which the smoother solves exactly.
-pub(super) const NONE: u32 = u32::MAX;
+pub(crate) const NONE: u32 = u32::MAX;
 
 /// Which couplings count.
 #[derive(Clone, Debug)]
@@ -33,6 +33,16 @@ impl Strong {
         Self::Flagged(flags)
     }
 
+    /// The rows that `row` is strongly coupled to, without itself.
+    pub(super) fn neighbors<'a, const B: usize>(
+        &'a self,
+        matrix: &'a BlockMatrix<B>,
+        row: usize,
+    ) -> impl Iterator<Item = usize> + 'a {
+        let entries = matrix.range(row).filter(|&at| self.is(at));
+        entries.map(|at| matrix.columns[at] as usize).filter(move |&column| column != row)
+    }
+
     /// Whether block number `at` counts.
     #[inline]
     pub(super) fn is(&self, at: usize) -> bool {
@@ -43,19 +53,14 @@ impl Strong {
     }
 }
 
-/// The aggregate of every row, and how many there are.
+/// The aggregate of every row, and how many there are; `neighbors` are what a row is strongly coupled to, without itself.
 ///
 /// Greedy, in the order of the rows: whoever has only free neighbours takes them all; those left over join the neighbour
 /// they are tied to most often; what then still has neighbours but no aggregate founds its own.
-pub(super) fn aggregate<const B: usize>(matrix: &BlockMatrix<B>, strong: &Strong) -> (Vec<u32>, usize) {
-    let rows = matrix.rows();
-    let neighbors = |row: usize| {
-        matrix
-            .range(row)
-            .filter(|&at| strong.is(at))
-            .map(|at| matrix.columns[at] as usize)
-            .filter(move |&column| column != row)
-    };
+pub(crate) fn aggregate<I: Iterator<Item = usize>>(
+    rows: usize,
+    neighbors: impl Fn(usize) -> I,
+) -> (Vec<u32>, usize) {
     let mut of = vec![NONE; rows];
     let mut count = 0;
     for row in 0..rows {

@@ -10,14 +10,14 @@ use crate::{SolveError, Structure};
 const SHIFTS: [f64; 4] = [1e-6, 1e-4, 1e-2, 1.0];
 
 #[derive(Debug)]
-pub(super) struct Coarsest<const C: usize> {
-    pub(super) matrix: BlockMatrix<C>,
+pub(crate) struct Coarsest<const C: usize> {
+    pub(crate) matrix: BlockMatrix<C>,
     analysis: Option<Analysis>,
     factors: Option<Factors>,
 }
 
 impl<const C: usize> Coarsest<C> {
-    pub(super) fn new(matrix: BlockMatrix<C>, shift: f64) -> Result<Self, SolveError> {
+    pub(crate) fn new(matrix: BlockMatrix<C>, shift: f64) -> Result<Self, SolveError> {
         let mut coarsest = Self { matrix, analysis: None, factors: None };
         if coarsest.matrix.rows() > 0 {
             let scalar = coarsest.scalar(shift);
@@ -28,7 +28,7 @@ impl<const C: usize> Coarsest<C> {
     }
 
     /// Factorizes anew, with more on the diagonal where that is needed.
-    pub(super) fn refresh(&mut self, shift: f64) -> Result<(), SolveError> {
+    pub(crate) fn refresh(&mut self, shift: f64) -> Result<(), SolveError> {
         let Some(analysis) = &self.analysis else { return Ok(()) };
         let mut failure = None;
         for shift in std::iter::once(shift).chain(SHIFTS.into_iter().filter(|&larger| larger > shift)) {
@@ -64,7 +64,7 @@ impl<const C: usize> Coarsest<C> {
             .expect("block columns ascend, and so do the columns within them")
     }
 
-    pub(super) fn solve(&self, b: &[[f64; C]], x: &mut [[f64; C]]) {
+    pub(crate) fn solve(&self, b: &[[f64; C]], x: &mut [[f64; C]]) {
         let (Some(analysis), Some(factors)) = (&self.analysis, &self.factors) else { return };
         let mut exact: Vec<f64> = b.iter().flatten().copied().collect();
         // Without memory for a vector this stays the right-hand side, and the iterations around take longer.

@@ -33,7 +33,7 @@ impl<const F: usize, const C: usize> Level<F, C> {
     /// Chooses aggregates by pattern and strength; nothing is computed from the values yet.
     pub(super) fn new(matrix: BlockMatrix<F>, theta: f64) -> Self {
         let strong = Strong::new(&matrix, theta);
-        let (aggregate, count) = aggregate(&matrix, &strong);
+        let (aggregate, count) = aggregate(matrix.rows(), |row| strong.neighbors(&matrix, row));
         let members = Members::new(&aggregate, count);
         let pattern = Pattern::prolongation(&matrix, &strong, &aggregate);
         let transposed = Transposed::new(&pattern, count);

@@ -11,9 +11,9 @@ use crate::SolveError;
 /// A symmetric sparse matrix of `B × B` blocks: of each block row, the columns ascending.
 #[derive(Clone, Debug)]
 pub struct BlockMatrix<const B: usize> {
-    pub(super) starts: Vec<u32>,
-    pub(super) columns: Vec<u32>,
-    pub(super) values: Vec<Block<B, B>>,
+    pub(crate) starts: Vec<u32>,
+    pub(crate) columns: Vec<u32>,
+    pub(crate) values: Vec<Block<B, B>>,
 }
 
 impl<const B: usize> BlockMatrix<B> {
@@ -150,7 +150,7 @@ impl BlockMatrix<1> {
 pub(super) const MIN_ROWS: usize = 512;
 
 /// Runs `act(row, values of the row)` for all rows, in parallel.
-pub(super) fn for_each_row<T: Send>(starts: &[u32], values: &mut [T], act: impl Fn(usize, &mut [T]) + Sync) {
+pub(crate) fn for_each_row<T: Send>(starts: &[u32], values: &mut [T], act: impl Fn(usize, &mut [T]) + Sync) {
     for_each_row_with(starts, values, || (), |(), row, values| act(row, values));
 }
 

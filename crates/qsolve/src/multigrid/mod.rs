@@ -27,15 +27,16 @@ mod tests;
 
 use std::sync::Mutex;
 
-use nalgebra_sparse::CsrMatrix;
 use rayon::prelude::*;
 
 pub use block::Block;
 pub use matrix::BlockMatrix;
 
 use crate::SolveError;
-use coarsest::Coarsest;
+pub(crate) use aggregate::{NONE, aggregate};
+pub(crate) use coarsest::Coarsest;
 use level::Level;
+pub(crate) use matrix::for_each_row;
 
 /// A level of at most so many rows is factorized.
 const COARSEST_ROWS: usize = 200;
@@ -170,16 +171,6 @@ impl<const F: usize, const C: usize> Multigrid<F, C> {
         if let Ok(mut spare) = self.spare.lock() {
             spare.push(work);
         }
-    }
-}
-
-impl Multigrid<1, 1> {
-    /// The hierarchy of a matrix whose near-kernel are the constants.
-    ///
-    /// # Errors
-    /// As [`Multigrid::new`].
-    pub fn scalar(matrix: &CsrMatrix<f64>, options: MultigridOptions) -> Result<Self, SolveError> {
-        Self::new(BlockMatrix::from_csr(matrix)?, &vec![[[1.0]]; matrix.nrows()], options)
     }
 }
 

@@ -26,7 +26,7 @@ fn the_near_kernel_is_carried_exactly() {
             })
             .collect();
         let matrix = strip(rows);
-        let (of, count) = aggregate(&matrix, &Strong::All);
+        let (of, count) = aggregate(matrix.rows(), |row| Strong::All.neighbors(&matrix, row));
         assert!(3 * count <= rows, "{count} aggregates of {rows} rows");
         let tentative = Tentative::new(&kernel, &of, &Members::new(&of, count));
         for row in 0..rows {
@@ -46,7 +46,7 @@ fn the_near_kernel_is_carried_exactly() {
 #[test]
 fn aggregates_cover() {
     let matrix = strip(500);
-    let (of, count) = aggregate(&matrix, &Strong::All);
+    let (of, count) = aggregate(matrix.rows(), |row| Strong::All.neighbors(&matrix, row));
     let members = Members::new(&of, count);
     let mut seen = vec![0; 500];
     for number in 0..count {

@@ -34,7 +34,7 @@ fn iterations(matrix: &CsrMatrix<f64>) -> usize {
 #[test]
 fn iterations_are_bounded_over_sizes() {
     let counts = [32, 64, 128, 256].map(|side| iterations(&spd(side, 1.0, &mut Random::new(1))));
-    assert!(counts.iter().all(|&count| count <= 36), "{counts:?}");
+    assert!(counts.iter().all(|&count| count <= 24), "{counts:?}");
     assert!(2 * counts[3] <= 3 * counts[0], "{counts:?}");
 }
 
@@ -76,10 +76,11 @@ fn the_order_of_unknowns_does_not_matter() {
     assert!(after.iterations <= before.iterations + 8, "{} and {}", before.iterations, after.iterations);
 }
 
-/// Weights that differ by 1e3 from edge to edge are still cheaper than without levels, and those that differ by 1e6 arrive.
+/// Weights that differ from edge to edge by 1e3 take a few more iterations; by 1e6, the patience with the levels and then as many as
+/// sampled factors need.
 #[test]
 fn contrast_is_survived() {
-    for (contrast, most) in [(1e3, 120), (1e6, 600)] {
+    for (contrast, most) in [(1e3, 60), (1e6, 110)] {
         let count = iterations(&spd(96, contrast, &mut Random::new(2)));
         assert!(count <= most, "contrast {contrast:.0e}: {count} iterations");
     }

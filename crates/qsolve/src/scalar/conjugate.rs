@@ -2,43 +2,68 @@
 
 use rayon::prelude::*;
 
-use super::hierarchy::{Hierarchy, Work};
 use super::sparse::Sparse;
 
 /// Rows that one task takes. Sums are taken chunk by chunk and then over the chunks in order, whoever computed them.
 const CHUNK: usize = 1 << 13;
 
+/// After so many iterations a preconditioner must have come as far as if it were to arrive after [`ACCEPTABLE`].
+const PATIENCE: usize = 40;
+const ACCEPTABLE: usize = 120;
+
+/// `z ≈ A⁻¹ r`, a symmetric positive definite operation.
+pub(super) trait Preconditioner<const K: usize> {
+    fn apply(&mut self, r: &[[f64; K]]);
+    /// What [`Preconditioner::apply`] gave.
+    fn z(&self) -> &[[f32; K]];
+}
+
+/// What came of some iterations.
+pub(super) struct Iterated<const K: usize> {
+    pub(super) x: Vec<[f64; K]>,
+    /// Iterations of each column.
+    pub(super) taken: [usize; K],
+    /// Columns that were given up because they came forward too slowly.
+    pub(super) stalled: [bool; K],
+}
+
 /// `A X ≈ B` from zero [Hestenes, Stiefel 1952], until the error of each column is below `target` times its answer, both in the
 /// energy norm `‖x‖² = xᵀ A x` as the preconditioner estimates it. Every column has steps of its own; one that has arrived waits for
 /// the others. `r` is `B` before, and what recursion says of the residual after.
-///
-/// Gives the answer and the iterations of each column.
 pub(super) fn conjugate_gradients<const K: usize>(
-    hierarchy: &Hierarchy,
+    matrix: &Sparse<f64>,
+    preconditioner: &mut impl Preconditioner<K>,
     r: &mut [[f64; K]],
-    target: f64,
+    target: [f64; K],
     budget: usize,
-) -> (Vec<[f64; K]>, [usize; K]) {
-    let matrix = &hierarchy.finest.matrix;
+    is_patient: bool,
+) -> Iterated<K> {
     let zeros = || vec![[0.0; K]; r.len()];
     let (mut x, mut p, mut ap) = (zeros(), zeros(), zeros());
-    let mut work = Work::new(hierarchy);
-    let (mut rz, mut first, mut taken) = ([0.0; K], [0.0; K], [0; K]);
+    let (mut rz, mut first) = ([0.0; K], [0.0; K]);
+    let (mut taken, mut stalled) = ([0; K], [false; K]);
     for iteration in 0..=budget {
-        hierarchy.cycle(r, &mut work);
-        let next = dot(r, work.x());
+        preconditioner.apply(r);
+        let next = dot(r, preconditioner.z());
         let beta = if iteration == 0 { [0.0; K] } else { ratios(&next, &rz) };
         rz = next;
         if iteration == 0 {
             first = rz;
         }
         let is_open =
-            |k: usize| rz[k] > target * target * first[k] && rz[k].is_finite() && taken[k] == iteration;
-        let open: [bool; K] = std::array::from_fn(is_open);
+            |k: usize| rz[k] > target[k] * target[k] * first[k] && rz[k].is_finite() && taken[k] == iteration;
+        let mut open: [bool; K] = std::array::from_fn(is_open);
+        if iteration == PATIENCE && !is_patient {
+            for k in 0..K {
+                let expected = target[k].powf(2.0 * PATIENCE as f64 / ACCEPTABLE as f64);
+                stalled[k] = open[k] && rz[k] > expected * first[k];
+                open[k] &= !stalled[k];
+            }
+        }
         if iteration == budget || !open.contains(&true) {
             break;
         }
-        advance_direction(&mut p, work.x(), &beta, &open);
+        advance_direction(&mut p, preconditioner.z(), &beta, &open);
         let curvature = multiply(matrix, &p, &mut ap);
         let mut alpha = ratios(&rz, &curvature);
         for k in 0..K {
@@ -48,7 +73,7 @@ pub(super) fn conjugate_gradients<const K: usize>(
         }
         step(&mut x, r, &p, &ap, &alpha);
     }
-    (x, taken)
+    Iterated { x, taken, stalled }
 }
 
 fn ratios<const K: usize>(a: &[f64; K], b: &[f64; K]) -> [f64; K] {

@@ -1,5 +1,6 @@
 //! The V-cycle.
 
+use super::conjugate::Preconditioner;
 use super::level::Level;
 use super::sparse::{Sparse, Value};
 use crate::SolveError;
@@ -43,12 +44,40 @@ impl Hierarchy {
         let coarsest = Coarsest::new(matrix, 0.0)?;
         Ok(Self { finest, coarser, coarsest, rows })
     }
+}
 
-    /// `work.x() ≈ A⁻¹ b`, a symmetric positive definite operation but for the rounding of single precision.
-    pub(super) fn cycle<const K: usize>(&self, b: &[[f64; K]], work: &mut Work<K>) {
-        let Self { finest, coarser, coarsest, .. } = self;
-        let Work { fine, coarse } = work;
-        cycle(finest, coarser, coarsest, b, fine, coarse);
+/// V-cycles with the vectors that they work in.
+#[derive(Debug)]
+pub(super) struct Cycles<'a, const K: usize> {
+    hierarchy: &'a Hierarchy,
+    work: Work<K>,
+}
+
+impl<'a, const K: usize> Cycles<'a, K> {
+    pub(super) fn new(hierarchy: &'a Hierarchy) -> Self {
+        Self { hierarchy, work: Work::new(hierarchy) }
+    }
+
+    /// With vectors from before.
+    pub(super) fn with(hierarchy: &'a Hierarchy, work: Work<K>) -> Self {
+        Self { hierarchy, work }
+    }
+
+    pub(super) fn into_work(self) -> Work<K> {
+        self.work
+    }
+}
+
+/// Symmetric positive definite but for the rounding of single precision.
+impl<const K: usize> Preconditioner<K> for Cycles<'_, K> {
+    fn apply(&mut self, r: &[[f64; K]]) {
+        let Hierarchy { finest, coarser, coarsest, .. } = self.hierarchy;
+        let Work { fine, coarse } = &mut self.work;
+        cycle(finest, coarser, coarsest, r, fine, coarse);
+    }
+
+    fn z(&self) -> &[[f32; K]] {
+        &self.work.fine.x
     }
 }
 
@@ -68,16 +97,11 @@ pub(super) struct Work<const K: usize> {
 }
 
 impl<const K: usize> Work<K> {
-    pub(super) fn new(hierarchy: &Hierarchy) -> Self {
+    fn new(hierarchy: &Hierarchy) -> Self {
         let zeros = |rows: usize| vec![[0.0; K]; rows];
         let vectors = |rows: usize| Vectors { x: zeros(rows), r: zeros(rows) };
         let coarse = hierarchy.rows[1..].iter().map(|&rows| (zeros(rows), vectors(rows)));
         Self { fine: vectors(hierarchy.rows[0]), coarse: coarse.collect() }
-    }
-
-    /// What the last cycle gave.
-    pub(super) fn x(&self) -> &[[f32; K]] {
-        &self.fine.x
     }
 }
 

@@ -123,8 +123,7 @@ impl<T: Value> Level<T> {
     pub(super) fn restrict<const K: usize>(&self, r: &[[f32; K]], coarse: &mut [[f32; K]]) {
         coarse.par_iter_mut().with_min_len(GRAIN / 4).enumerate().for_each(|(row, to)| {
             let mut sum = [0.0; K];
-            for &fine in self.restriction.row(row) {
-                let value = self.prolongation.at(fine as usize, row as u32);
+            for (fine, value) in self.restriction.entries(&self.prolongation, row) {
                 (0..K).for_each(|k| sum[k] += value * r[fine as usize][k]);
             }
             *to = sum;
@@ -225,8 +224,7 @@ fn galerkin<T: Value>(
     restriction: &Transposed,
 ) -> Sparse<f32> {
     Sparse::of_rows(restriction.rows(), |coarse, sums| {
-        for &row in restriction.row(coarse) {
-            let share = prolongation.at(row as usize, coarse as u32);
+        for (row, share) in restriction.entries(prolongation, coarse) {
             let (columns, values) = matrix.row(row as usize);
             for (&column, value) in columns.iter().zip(values) {
                 let product = share.double() * value.double();

@@ -112,20 +112,15 @@ impl Sparse<f32> {
         }
         joined
     }
-
-    /// The entry of a row in a column; zero where there is none.
-    #[inline(always)]
-    pub(super) fn at(&self, row: usize, column: u32) -> f32 {
-        let (columns, values) = self.row(row);
-        columns.iter().zip(values).find(|(other, _)| **other == column).map_or(0.0, |(_, value)| *value)
-    }
 }
 
-/// A pattern by column: the rows that have an entry there, ascending.
+/// A pattern by column: the rows that have an entry there, ascending, and where it stands in its row.
 #[derive(Clone, Debug)]
 pub(super) struct Transposed {
     starts: Vec<u32>,
     rows: Vec<u32>,
+    /// How many entries stand before it; of those further behind, the last number.
+    offsets: Vec<u8>,
 }
 
 impl Transposed {
@@ -138,25 +133,39 @@ impl Transposed {
         for column in 0..columns {
             starts[column + 2] += starts[column + 1];
         }
-        let mut rows = vec![0; matrix.columns.len()];
+        let (mut rows, mut offsets) = (vec![0; matrix.columns.len()], vec![0; matrix.columns.len()]);
         for row in 0..matrix.rows() {
-            for &column in matrix.row(row).0 {
+            for (offset, &column) in matrix.row(row).0.iter().enumerate() {
                 let place = &mut starts[column as usize + 1];
                 rows[*place as usize] = row as u32;
+                offsets[*place as usize] = offset.min(usize::from(u8::MAX)) as u8;
                 *place += 1;
             }
         }
         starts.pop();
-        Self { starts, rows }
+        Self { starts, rows, offsets }
     }
 
     pub(super) fn rows(&self) -> usize {
         self.starts.len() - 1
     }
 
+    /// The rows that have an entry in `column` of `matrix`, which this was made of, with that entry.
     #[inline(always)]
-    pub(super) fn row(&self, column: usize) -> &[u32] {
-        &self.rows[self.starts[column] as usize..self.starts[column + 1] as usize]
+    pub(super) fn entries<'a>(
+        &'a self,
+        matrix: &'a Sparse<f32>,
+        column: usize,
+    ) -> impl Iterator<Item = (u32, f32)> + 'a {
+        let range = self.starts[column] as usize..self.starts[column + 1] as usize;
+        self.rows[range.clone()].iter().zip(&self.offsets[range]).map(move |(&row, &offset)| {
+            let (columns, values) = matrix.row(row as usize);
+            let offset = match offset {
+                u8::MAX => columns.partition_point(|&other| (other as usize) < column),
+                offset => usize::from(offset),
+            };
+            (row, values[offset])
+        })
     }
 }
 

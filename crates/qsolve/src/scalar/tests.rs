@@ -2,10 +2,12 @@
 
 #![allow(clippy::unwrap_used, reason = "a failing unwrap fails the test")]
 
-use super::hierarchy::{Hierarchy, Work};
+use super::conjugate::{Preconditioner, multiply};
+use super::elimination::{Eliminated, Elimination};
+use super::hierarchy::{Cycles, Hierarchy};
 use super::level::Level;
 use super::order::{better_order, permuted};
-use super::sparse::{Sparse, Sums};
+use super::sparse::{Sparse, Sums, Transposed};
 
 /// Springs of a `side × side` grid that nothing holds, of stiffness 1 to 3, and `held` more on the diagonal.
 fn grid(side: usize, held: f64) -> Sparse<f64> {
@@ -51,24 +53,42 @@ fn a_free_net_stays_free_on_the_next_level() {
         let (sum, size) = values.iter().fold((0.0, 0.0), |(sum, size), v| (sum + v, size + v.abs()));
         assert!(sum.abs() < 1e-5 * size, "row {row}");
         for (&column, &value) in columns.iter().zip(values) {
-            let mirrored = coarse.at(column as usize, row as u32);
+            let (others, mirrored) = coarse.row(column as usize);
+            let mirrored = mirrored[others.binary_search(&(row as u32)).unwrap()];
             assert!((mirrored - value).abs() <= 1e-6 * value.abs().max(1.0), "entry ({row}, {column})");
         }
     }
 }
 
-/// One cycle is a symmetric positive definite operation up to the rounding of single precision, also where chunks of the smoother meet.
+/// A cycle and a solve with sampled factors are symmetric positive definite operations up to the rounding of single precision.
 #[test]
-fn a_cycle_is_symmetric_and_positive() {
+fn preconditioners_are_symmetric_and_positive() {
     let hierarchy = Hierarchy::new(grid(60, 0.1)).unwrap();
-    let mut work = Work::<1>::new(&hierarchy);
+    is_symmetric_and_positive(&mut Cycles::new(&hierarchy), 3600);
+    // Far from the hierarchy's reach: entries that differ by 1e6 at random.
+    let mut wild = grid(60, 0.1);
+    let stiffness =
+        |a: usize, b: usize| 10.0_f64.powf(6.0 * (noise(1, (a + b + a * b) as u64)[0][0] + 1.0) / 2.0);
+    for row in 0..wild.rows() {
+        let mut sum = 0.1;
+        for at in wild.range(row).filter(|&at| wild.columns[at] as usize != row) {
+            wild.values[at] = -stiffness(row, wild.columns[at] as usize);
+            sum -= wild.values[at];
+        }
+        let own = wild.range(row).find(|&at| wild.columns[at] as usize == row).unwrap();
+        wild.values[own] = sum;
+    }
+    is_symmetric_and_positive(&mut Eliminated::new(&Elimination::new(&wild)), 3600);
+}
+
+fn is_symmetric_and_positive(preconditioner: &mut impl Preconditioner<1>, n: usize) {
     let mut cycle = |b: &[[f64; 1]]| -> Vec<f64> {
-        hierarchy.cycle(b, &mut work);
-        work.x().iter().map(|x| f64::from(x[0])).collect()
+        preconditioner.apply(b);
+        preconditioner.z().iter().map(|x| f64::from(x[0])).collect()
     };
     let dot = |a: &[[f64; 1]], b: &[f64]| a.iter().zip(b).map(|(a, b)| a[0] * b).sum::<f64>();
     for seed in 0..5 {
-        let (a, b) = (noise(3600, seed), noise(3600, seed + 100));
+        let (a, b) = (noise(n, seed), noise(n, seed + 100));
         let (ma, mb) = (cycle(&a), cycle(&b));
         let (size, positive) = (dot(&a, &ma) + dot(&b, &mb), dot(&a, &ma).min(dot(&b, &mb)));
         assert!(positive > 0.0);
@@ -93,6 +113,53 @@ fn a_shuffle_is_undone() {
     for (row, &middle) in order.iter().enumerate() {
         let original = shuffle[middle as usize] as usize;
         assert_eq!(tidy.diagonal(row), matrix.diagonal(original));
+    }
+}
+
+/// Where eliminating fills nothing in, nothing is sampled, and the factors are exact: along a chain, and in a tree.
+#[test]
+fn elimination_is_exact_without_fill() {
+    let parent = |row: usize| if row.is_multiple_of(2) { row / 4 } else { row - 1 };
+    // Powers of two, so that rows add up to exactly nothing in single precision too.
+    let weight = |row: usize| ((row % 9) as f64 - 4.0).exp2();
+    let n = 500;
+    let matrix = Sparse::of_rows(n, |row, sums: &mut Sums| {
+        let mut tie = |other: usize, weight: f64| {
+            sums.add(row as u32, weight);
+            sums.add(other as u32, -weight);
+        };
+        (1..n).filter(|&child| parent(child) == row).for_each(|child| tie(child, weight(child)));
+        if row > 0 {
+            tie(parent(row), weight(row));
+        } else {
+            sums.add(0, 0.5);
+        }
+    });
+    let Sparse { starts, columns, values } = matrix;
+    let matrix = Sparse { starts, columns, values: values.into_iter().map(f64::from).collect() };
+    let exact = noise(n, 3);
+    let mut b = vec![[0.0]; n];
+    multiply(&matrix, &exact, &mut b);
+    let factors = Elimination::new(&matrix);
+    let mut solve = Eliminated::new(&factors);
+    solve.apply(&b);
+    let largest = (0..n).map(|row| matrix.diagonal(row)).fold(0.0, f64::max);
+    for (z, exact) in solve.z().iter().zip(&exact) {
+        assert!((f64::from(z[0]) / largest - exact[0]).abs() < 1e-3, "{} {}", z[0], exact[0]);
+    }
+}
+
+/// A transposed pattern finds the entries of each column, of rows with more than 255 entries too.
+#[test]
+fn columns_find_their_entries() {
+    let matrix = Sparse::of_rows(300, |row, sums: &mut Sums| {
+        (0..900).filter(|k| (k + row) % 3 < 2).for_each(|k| sums.add(k as u32, (1000 * row + k) as f64));
+    });
+    let transposed = Transposed::new(&matrix, 900);
+    for column in 0..900 {
+        let rows = (0..300).filter(|row| (column + row) % 3 < 2);
+        let expected = rows.map(|row| (row as u32, (1000 * row + column) as f32));
+        assert!(transposed.entries(&matrix, column).eq(expected), "column {column}");
     }
 }
 

@@ -11,7 +11,7 @@
 //! input gives the same bits for any number of threads.
 //!
 //! Not guaranteed: few iterations for weights that jump from edge to edge by 1e6 without pattern; a factorization does not mind
-//! those.
+//! those. Systems of one unknown a row have [a hierarchy of their own](crate::ScalarMultigrid).
 
 mod aggregate;
 mod block;

@@ -22,7 +22,8 @@
 //! the condition number; and the same bits on another machine, since faer adapts its kernels to the processor.
 //!
 //! Limits: real square systems. Patterns and factors are indexed in 32 bits (about two thousand million entries).
-//! Factorizations and triangular solves run on one thread, one right-hand side a thread; [`multigrid`] uses them all.
+//! Factorizations and triangular solves run on one thread, one right-hand side a thread; [`multigrid`] and
+//! [`ScalarMultigrid`] use them all.
 
 // In reading order.
 mod assembly;

@@ -1,6 +1,7 @@
 //! What the benches share: sizes, and a mesh of any size from a formula.
 
 use qoptimize::qmesh::{Polygons, QuadMesh, shapes};
+use qoptimize::qsolve::{CsrMatrix, Triplets};
 
 /// Quads along one side; the number of quads is the square.
 const SIDES: [usize; 4] = [32, 100, 316, 1000];
@@ -28,4 +29,23 @@ pub fn polygons(mesh: &QuadMesh) -> Polygons {
         face_start: view.face_start.to_vec(),
         corner_vertex: view.corner_vertex.to_vec(),
     }
+}
+
+/// Unit springs between the neighbours of a `side × side` grid, and between the outermost nodes and walls around them.
+///
+/// # Panics
+/// Never: all entries lie inside.
+#[must_use]
+pub fn grid_laplacian(side: usize) -> CsrMatrix<f64> {
+    let n = side * side;
+    let mut triplets = Triplets::with_capacity(n, n, 5 * n);
+    for node in 0..n {
+        let (x, y) = (node % side, node / side);
+        triplets.add(node, node, 4.0);
+        let inside = [(x > 0, 1, 0), (x + 1 < side, 0, 1), (y > 0, side, 0), (y + 1 < side, 0, side)];
+        for (_, before, after) in inside.into_iter().filter(|(is_inside, ..)| *is_inside) {
+            triplets.add(node, node + after - before, -1.0);
+        }
+    }
+    triplets.build().expect("all entries lie inside")
 }

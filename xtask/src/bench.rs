@@ -8,6 +8,7 @@ use std::process::Command;
 
 use clap::Parser;
 
+use crate::arguments;
 use crate::compare::machine;
 use estimates::{Estimate, collect};
 use growth::{LARGE, Row, rows};
@@ -35,15 +36,7 @@ struct Arguments {
 
 /// Runs the task.
 pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
-    let name = ["cargo xtask bench".to_owned()];
-    match Arguments::try_parse_from(name.iter().chain(arguments)) {
-        Ok(arguments) => bench(&arguments),
-        Err(error) if error.use_stderr() => Err(error.to_string()),
-        Err(help) => {
-            print!("{help}");
-            Ok(())
-        }
-    }
+    arguments::parsed("cargo xtask bench", arguments, bench)
 }
 
 fn bench(arguments: &Arguments) -> Result<(), String> {

@@ -27,6 +27,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Parser;
 
+use crate::arguments;
+
 use contestant::{Absent, Contestant};
 use league::{League, MeshTable, Outcome, Row};
 use places::Places;
@@ -80,15 +82,7 @@ struct Arguments {
 
 /// Runs the task.
 pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
-    let name = ["cargo xtask compare".to_owned()];
-    match Arguments::try_parse_from(name.iter().chain(arguments)) {
-        Ok(arguments) => compare(&arguments),
-        Err(error) if error.use_stderr() => Err(error.to_string()),
-        Err(help) => {
-            print!("{help}");
-            Ok(())
-        }
-    }
+    arguments::parsed("cargo xtask compare", arguments, compare)
 }
 
 fn compare(arguments: &Arguments) -> Result<(), String> {

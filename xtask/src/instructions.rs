@@ -10,6 +10,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use clap::Parser;
+
+use crate::arguments;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -37,15 +39,7 @@ struct Counts {
 
 /// Runs the task.
 pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
-    let name = ["cargo xtask instructions".to_owned()];
-    match Arguments::try_parse_from(name.iter().chain(arguments)) {
-        Ok(arguments) => instructions(&arguments),
-        Err(error) if error.use_stderr() => Err(error.to_string()),
-        Err(help) => {
-            print!("{help}");
-            Ok(())
-        }
-    }
+    arguments::parsed("cargo xtask instructions", arguments, instructions)
 }
 
 fn instructions(arguments: &Arguments) -> Result<(), String> {

@@ -65,6 +65,7 @@ const TASKS: &[(&str, &str, Task)] = &[
     ("tidy", "house rules: the chain of crates, module headers, every equation cited, links", tidy::run),
 ];
 
+mod arguments;
 mod bench;
 mod chart;
 mod compare;

@@ -11,6 +11,8 @@ use std::fs;
 use std::path::Path;
 
 use clap::Parser;
+
+use crate::arguments;
 use qparam_cli::qmesh::{QuadMesh, shapes};
 use qparam_cli::qoptimize::{Options, Preset};
 
@@ -41,15 +43,7 @@ struct Arguments {
 
 /// Runs the task.
 pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
-    let name = ["cargo xtask refine".to_owned()];
-    match Arguments::try_parse_from(name.iter().chain(arguments)) {
-        Ok(arguments) => refine(&arguments),
-        Err(error) if error.use_stderr() => Err(error.to_string()),
-        Err(help) => {
-            print!("{help}");
-            Ok(())
-        }
-    }
+    arguments::parsed("cargo xtask refine", arguments, refine)
 }
 
 /// A shape at any resolution.

@@ -22,6 +22,7 @@ use qparam_cli::sweep::{Column, TABLE_1_Q};
 
 use mesh_report::MeshReport;
 
+use crate::arguments;
 use crate::{figure, section};
 
 /// Distortion against q for every method, in the form of the paper's Table 1.
@@ -46,15 +47,7 @@ struct Arguments {
 
 /// Runs the task.
 pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
-    let name = ["cargo xtask sweep".to_owned()];
-    match Arguments::try_parse_from(name.iter().chain(arguments)) {
-        Ok(arguments) => sweep(&arguments),
-        Err(error) if error.use_stderr() => Err(error.to_string()),
-        Err(help) => {
-            print!("{help}");
-            Ok(())
-        }
-    }
+    arguments::parsed("cargo xtask sweep", arguments, sweep)
 }
 
 fn sweep(arguments: &Arguments) -> Result<(), String> {

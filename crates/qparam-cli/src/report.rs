@@ -131,25 +131,6 @@ pub(crate) struct UnwrapReport<'a> {
     pub(crate) peak_memory_bytes: Option<u64>,
 }
 
-/// No flips, and no island that overlaps itself, by the measures alone.
-pub(crate) fn is_valid(distortion: &Distortion) -> bool {
-    distortion.flipped_corners == 0 && distortion.folded_faces == 0 && distortion.boundary_crossings == 0
-}
-
-/// What is wrong with a map, in words.
-pub(crate) fn verdict(distortion: &Distortion) -> String {
-    let mut faults = Vec::new();
-    let mut fault = |count: usize, noun: &str| {
-        if count > 0 {
-            faults.push(counted(count, noun));
-        }
-    };
-    fault(distortion.flipped_corners, "flipped corner");
-    fault(distortion.folded_faces, "folded face");
-    fault(distortion.boundary_crossings, "boundary crossing");
-    if faults.is_empty() { "valid".to_owned() } else { faults.join(", ") }
-}
-
 /// The table of `unwrap`.
 pub(crate) fn unwrap_text(report: &UnwrapReport<'_>, method: &str, color: bool) -> String {
     let mut text = report.input.line();

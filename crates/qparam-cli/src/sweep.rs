@@ -21,10 +21,11 @@ pub use features::{Change, Features, Smallest, Trend};
 pub use knee::{Knee, NoKnee, knee};
 
 use qoptimize::qmesh::{Observer, QuadMesh};
-use qoptimize::{Continuation, Distortion, Options, Parameterization, ParameterizeError, parameterize_from};
+use qoptimize::{
+    Certificate, Continuation, Distortion, Options, Parameterization, ParameterizeError, parameterize_from,
+};
 use serde::Serialize;
 
-use crate::report::is_valid;
 use crate::table::short;
 
 /// The `q` of the paper's Table 1.
@@ -70,6 +71,8 @@ pub struct Column {
     pub q: f64,
     /// Its measures.
     pub outcome: Result<Distortion, ParameterizeError>,
+    /// The proof that it is valid, or what is wrong with it; nothing where there is no map.
+    pub certificate: Option<Certificate>,
 }
 
 impl Column {
@@ -80,10 +83,10 @@ impl Column {
         Some(Errors { q: self.q, angle: distortion.angle_error, area: distortion.area_error })
     }
 
-    /// Whether there is a map without flips and overlaps.
+    /// Whether there is a map that is certified to have neither flips nor overlaps.
     #[must_use]
     pub fn is_valid(&self) -> bool {
-        self.outcome.as_ref().is_ok_and(is_valid)
+        self.certificate.as_ref().is_some_and(|certificate| certificate.holds)
     }
 }
 
@@ -113,12 +116,14 @@ pub fn sweep(
     let mut columns = Vec::with_capacity(q.len());
     let mut continuation = Continuation::default();
     for &q in q {
-        let outcome = parameterize_from(&mut continuation, mesh, &Options { q, ..options.clone() }, observer)
-            .map(|Parameterization { distortion, .. }| distortion);
-        if outcome == Err(ParameterizeError::Cancelled) {
-            return Err(ParameterizeError::Cancelled);
-        }
-        columns.push(Column { q, outcome });
+        let map = parameterize_from(&mut continuation, mesh, &Options { q, ..options.clone() }, observer);
+        columns.push(match map {
+            Ok(Parameterization { distortion, certificate, .. }) => {
+                Column { q, outcome: Ok(distortion), certificate: Some(certificate) }
+            }
+            Err(ParameterizeError::Cancelled) => return Err(ParameterizeError::Cancelled),
+            Err(error) => Column { q, outcome: Err(error), certificate: None },
+        });
     }
     if columns.iter().all(|column| column.outcome.is_err())
         && let Some(Column { outcome: Err(error), .. }) = columns.first()

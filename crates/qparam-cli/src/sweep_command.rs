@@ -15,7 +15,7 @@ use crate::interrupt::Phase;
 use crate::json_text;
 use crate::output::Target;
 use crate::progress::Watch;
-use crate::report::{Head, InputReport, verdict};
+use crate::report::{Head, InputReport};
 use crate::streams::Streams;
 use crate::sweep::{Column, Features, Knee, NoKnee, Sweep, sweep};
 use crate::table::{Table, short};
@@ -159,12 +159,12 @@ fn text(sweep: &Sweep, color: bool) -> String {
         text += &format!("{sentence}\n");
     }
     for column in &sweep.columns {
-        match &column.outcome {
-            Ok(distortion) if !column.is_valid() => {
-                text += &format!("the map at q = {} is not valid: {}\n", column.q, verdict(distortion));
+        match (&column.certificate, &column.outcome) {
+            (Some(certificate), _) if !certificate.holds => {
+                text += &format!("the map at q = {} is not valid. The certificate {certificate}\n", column.q);
             }
-            Ok(_) => {}
-            Err(error) => text += &format!("no map at q = {}: {error}\n", column.q),
+            (_, Err(error)) => text += &format!("no map at q = {}: {error}\n", column.q),
+            _ => {}
         }
     }
     text

@@ -62,7 +62,28 @@ impl Symbolic {
         let factors = self.analysis.factor(matrix)?;
         Ok(Factor { analysis: &self.analysis, matrix, factors })
     }
+
+    /// `x = A⁻¹ x` with factors that [`Factor::into_factors`] kept: for preconditioning, when A has changed since. Nothing is
+    /// refined, and no residual computed.
+    ///
+    /// # Errors
+    /// [`SolveError::OtherPattern`] for factors of another analysis, [`SolveError::WrongRightHandSide`], or
+    /// [`SolveError::TooLarge`] when memory runs out.
+    pub fn solve_in_place(&self, factors: &KeptFactors, x: &mut [f64]) -> Result<(), SolveError> {
+        let (expected, found) = (self.pattern.major_dim(), x.len());
+        if expected != found {
+            return Err(SolveError::WrongRightHandSide { expected, found });
+        }
+        if !self.analysis.made(&factors.0) {
+            return Err(SolveError::OtherPattern);
+        }
+        self.analysis.solve_in_place(&factors.0, x)
+    }
 }
+
+/// The factors of a matrix that need not be there any more: see [`Symbolic::solve_in_place`].
+#[derive(Debug)]
+pub struct KeptFactors(Factors);
 
 /// A factorized matrix: Cholesky or LU.
 #[derive(Debug)]
@@ -73,6 +94,12 @@ pub struct Factor<'a> {
 }
 
 impl Factor<'_> {
+    /// The factors alone, to precondition other matrices of the same pattern.
+    #[must_use]
+    pub fn into_factors(self) -> KeptFactors {
+        KeptFactors(self.factors)
+    }
+
     /// Solves with the factors, and refines while the residual asks for it and falls.
     fn solve_column(&self, b: &[f64]) -> Result<(Vec<f64>, usize), SolveError> {
         let size = norm(b);

@@ -141,6 +141,15 @@ impl Analysis {
         Ok(())
     }
 
+    /// Whether `factors` are of the kind and size that [`Analysis::factor`] makes.
+    pub(crate) fn made(&self, factors: &Factors) -> bool {
+        match (&self.shape, factors) {
+            (Shape::Cholesky(shape), Factors::Cholesky(values)) => values.len() == shape.len_val(),
+            (Shape::Lu(_), Factors::Lu(_)) => true,
+            _ => false,
+        }
+    }
+
     fn memory(&self, needed: StackReq) -> Result<MemBuffer, SolveError> {
         let unknowns = self.columns.pattern().nrows();
         MemBuffer::try_new(needed).map_err(|_| SolveError::TooLarge { unknowns })

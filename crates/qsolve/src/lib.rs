@@ -53,7 +53,7 @@ mod product;
 
 pub use assembly::Triplets;
 pub use conjugate::ConjugateGradients;
-pub use direct::{Factor, Symbolic};
+pub use direct::{Factor, KeptFactors, Symbolic};
 pub use error::SolveError;
 pub use krylov::Krylov;
 pub use multigrid::{BlockMatrix, Multigrid, MultigridOptions};

@@ -56,7 +56,7 @@ impl Memory {
 }
 
 /// In chunks of fixed size, so that the sum does not depend on the number of threads.
-fn dot(gradient: &[f64], direction: &[Vec2]) -> f64 {
+pub(super) fn dot(gradient: &[f64], direction: &[Vec2]) -> f64 {
     let of_chunk = |(g, d): (&[f64], &[Vec2])| -> f64 {
         g.chunks_exact(2).zip(d).map(|(g, d)| g[0] * d.x + g[1] * d.y).sum()
     };

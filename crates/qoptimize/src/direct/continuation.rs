@@ -1,18 +1,25 @@
 //! From one map to the next of the same surface: what does not depend on the dials is kept, and each descent starts where the last
 //! one ended.
 
+use std::sync::Arc;
+
 use crate::ParameterizeError;
+use crate::convexity::Exempt;
 use crate::plane::outline_flaws;
-use crate::qmesh::Vec2;
+use crate::qmesh::{QuadMesh, Vec2};
 
 use super::coarse::{Sizes, arrive};
 use super::embed::{Map, Run};
 use super::hessian::Hessian;
 use super::newton::descend;
+use super::predict::Series;
 use super::rest::Rest;
 use super::scale::to_best_scale;
 use super::start::{Origin, judge};
-use super::{DescentError, DirectReport, Start, StartMethod};
+use super::tail::{self, Learnt};
+use super::{
+    Descent, DescentError, DescentOptions, DirectReport, Objective, Start, StartMethod, Stop, energy,
+};
 
 /// What maps of one surface with a free boundary hand on to each other: see [`embed_from`](super::embed_from).
 #[derive(Default)]
@@ -24,12 +31,14 @@ pub struct Continuation {
 
 struct Kept {
     origin: Origin,
-    rest: Rest,
+    exempt: Exempt,
+    rest: Arc<Rest>,
     hessian: Hessian,
     /// The first map at true scale, in units of `rest`.
     first: Vec<Vec2>,
-    /// The last map of least energy, whether its boundary was clear of itself or not.
-    last: Option<Vec<Vec2>>,
+    /// The maps of least energy, whether their boundaries were clear of themselves or not.
+    series: Series,
+    learnt: Learnt,
     /// The last map whose boundary had to be cleared.
     cleared: Option<Vec<Vec2>>,
 }
@@ -49,23 +58,27 @@ impl Continuation {
     /// Whether there is a map to start from.
     #[must_use]
     pub fn is_warm(&self) -> bool {
-        self.kept.as_ref().is_some_and(|kept| kept.last.is_some())
+        self.kept.as_ref().is_some_and(|kept| !kept.series.is_empty())
+    }
+
+    /// Which quads of `mesh` cannot be convex.
+    pub(super) fn exempt(&self, mesh: &QuadMesh) -> Exempt {
+        match &self.kept {
+            Some(kept) if kept.is_of(mesh) => kept.exempt.clone(),
+            _ => Exempt::find(mesh),
+        }
     }
 
     /// The free map of least energy, from the last one if there is one.
     pub(super) fn free(&mut self, run: &Run<'_>) -> Result<(Map, DirectReport), ParameterizeError> {
-        let mut kept = match self.kept.take().filter(|kept| kept.belongs_to(run)) {
+        let mut kept = match self.kept.take().filter(|kept| kept.is_of(run.mesh)) {
             Some(kept) => kept,
             None => Kept::new(run)?,
         };
-        let mut uv = kept.last.clone().unwrap_or_else(|| kept.first.clone());
-        to_best_scale(&kept.rest, run.objective, &mut uv);
         // From inside the pool, where short parallel loops do not have to wake it first.
-        let descent = rayon::scope(|_| {
-            descend(&kept.rest, &mut kept.hessian, &mut uv, run.objective, run.options, run.observer)
-        })?;
+        let (mut uv, descent) = rayon::scope(|_| kept.least(run))?;
         if !self.is_last {
-            kept.last = Some(uv.clone());
+            kept.series.remember(run.objective, &mut uv);
         }
         let mut report = run.report(kept.origin, descent);
         if outline_flaws(run.mesh, &uv) > 0 {
@@ -73,14 +86,13 @@ impl Continuation {
             to_best_scale(&kept.rest, run.objective, &mut clear);
             report.boundary_repair = run.problem(&kept.rest).clear(&clear, &mut uv, &mut report.descent)?;
         }
-        if self.is_last {
-            return Ok((Map { uv, rest: kept.rest }, report));
-        }
-        if report.boundary_repair.is_some() {
-            kept.cleared = Some(uv.clone());
-        }
         let rest = kept.rest.clone();
-        self.kept = Some(kept);
+        if !self.is_last {
+            if report.boundary_repair.is_some() {
+                kept.cleared = Some(uv.clone());
+            }
+            self.kept = Some(kept);
+        }
         Ok((Map { uv, rest }, report))
     }
 }
@@ -102,7 +114,59 @@ impl Kept {
             }
         };
         let hessian = Hessian::new(&rest).map_err(DescentError::from)?;
-        Ok(Self { origin, rest, hessian, first, last: None, cleared: None })
+        Ok(Self {
+            origin,
+            exempt: run.exempt.clone(),
+            rest: Arc::new(rest),
+            hessian,
+            first,
+            series: Series::default(),
+            learnt: Learnt::default(),
+            cleared: None,
+        })
+    }
+
+    /// The map of least energy.
+    fn least(&mut self, run: &Run<'_>) -> Result<(Vec<Vec2>, Descent), ParameterizeError> {
+        let walked = self.walked(run)?;
+        if let Some((uv, descent)) = walked.as_ref().filter(|(_, descent)| descent.stop != Stop::MaxSteps) {
+            return Ok((uv.clone(), descent.clone()));
+        }
+        let mut uv = self.nearest(run.objective);
+        let (mut made, mut energy_before) = (0, None);
+        if let Some((further, descent)) = walked
+            && descent.energy < energy::value(run.objective, &self.rest, &uv)
+        {
+            (uv, made, energy_before) = (further, descent.steps, Some(descent.energy_before));
+        }
+        let options =
+            DescentOptions { max_steps: run.options.max_steps.saturating_sub(made), ..*run.options };
+        let mut descent =
+            descend(&self.rest, &mut self.hessian, &mut uv, run.objective, &options, run.observer)?;
+        descent.steps += made;
+        descent.energy_before = energy_before.unwrap_or(descent.energy_before);
+        Ok((uv, descent))
+    }
+
+    /// How far one gets from where the other maps say that this one lies; `None` where they say nothing of use.
+    fn walked(&mut self, run: &Run<'_>) -> Result<Option<(Vec<Vec2>, Descent)>, DescentError> {
+        if self.series.is_empty() {
+            return Ok(None);
+        }
+        let mut uv = self.series.predicted(run.objective).unwrap_or_else(|| self.nearest(run.objective));
+        let Self { rest, hessian, learnt, .. } = self;
+        match tail::walk(rest, hessian, learnt, &mut uv, run.objective, run.options, run.observer) {
+            Ok(descent) => Ok(Some((uv, descent))),
+            Err(DescentError::InvalidStart(_)) => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The map for the objective most like this one, or the first map, at its best scale.
+    fn nearest(&self, objective: &Objective) -> Vec<Vec2> {
+        let mut nearest = self.series.nearest(objective).unwrap_or(&self.first).to_vec();
+        to_best_scale(&self.rest, objective, &mut nearest);
+        nearest
     }
 
     /// A map whose boundary is clear of itself.
@@ -115,8 +179,8 @@ impl Kept {
     }
 
     /// As far as can be told without comparing all of the surface: the caller promises the rest.
-    fn belongs_to(&self, run: &Run<'_>) -> bool {
-        self.rest.vertex_count == run.mesh.vertex_count() && self.rest.ids.len() <= run.mesh.corner_count()
+    fn is_of(&self, mesh: &QuadMesh) -> bool {
+        self.rest.vertex_count == mesh.vertex_count() && self.rest.ids.len() <= mesh.corner_count()
     }
 }
 

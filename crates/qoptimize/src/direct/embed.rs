@@ -1,6 +1,7 @@
 //! From a mesh to a map: a start, the descent, and what it takes to heed the caller's wishes.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use crate::ParameterizeError;
 use crate::convexity::Exempt;
@@ -80,8 +81,8 @@ pub fn embed_from(
     if wishes.symmetric && !(is_free && wishes.pins.is_empty()) {
         return Err(ParameterizeError::SymmetricAndHeld);
     }
-    let mut run =
-        Run { mesh, exempt: Exempt::find(mesh), objective: &objective.clamped(), options, observer };
+    let exempt = continuation.exempt(mesh);
+    let mut run = Run { mesh, exempt, objective: &objective.clamped(), options, observer };
     let symmetrized = if wishes.symmetric { Some(mirrored::symmetrized(mesh)?) } else { None };
     let (mut map, mut report) = match (&symmetrized, wishes.boundary) {
         (Some((even, mirror)), _) => {
@@ -111,7 +112,7 @@ pub fn embed_from(
 /// A map in units of its problem.
 pub(super) struct Map {
     pub(super) uv: Vec<Vec2>,
-    pub(super) rest: Rest,
+    pub(super) rest: Arc<Rest>,
 }
 
 /// What one call works with.
@@ -142,20 +143,21 @@ impl Run<'_> {
         let mut uv = first.clone();
         let mut report = self.report(start.origin(), self.descend(&rest, &mut uv)?);
         report.boundary_repair = self.problem(&rest).clear(&first, &mut uv, &mut report.descent)?;
-        Ok((Map { uv, rest }, report))
+        Ok((Map { uv, rest: Arc::new(rest) }, report))
     }
 
     /// Draws the pins of a valid map to their places.
     fn pin(&self, map: &mut Map, pins: &[Pin], report: &mut DirectReport) -> Result<(), ParameterizeError> {
-        let held = &mut map.rest.constraint.held;
+        let held = &map.rest.constraint.held;
         if held.is_empty() {
-            held.resize(map.uv.len(), false);
             fit(map, pins);
         } else if let Some(&(vertex, _)) = pins.iter().find(|pin| held[pin.0.index()]) {
             return Err(ParameterizeError::PinOnHeldBoundary { vertex });
         }
+        let held = &mut Arc::make_mut(&mut map.rest).constraint.held;
+        held.resize(map.uv.len(), false);
         for (vertex, _) in pins {
-            map.rest.constraint.held[vertex.index()] = true;
+            held[vertex.index()] = true;
         }
         let pins: Vec<Pin> = pins.iter().map(|&(vertex, place)| (vertex, place / map.rest.unit)).collect();
         let pull = Pull {
@@ -221,7 +223,8 @@ fn fit(map: &mut Map, pins: &[Pin]) {
     let [a, b] = pull::similarity(&uv, pins);
     let area =
         a.norm_squared() * map.rest.corners.iter().map(|corner| corner.area).sum::<f64>() * unit * unit;
-    map.rest.unit = unit_length(0.5 * area);
-    map.rest.scale(a.norm() * unit / map.rest.unit);
+    let rest = Arc::make_mut(&mut map.rest);
+    rest.unit = unit_length(0.5 * area);
+    rest.scale(a.norm() * unit / rest.unit);
     map.uv = uv.iter().map(|&p| (pull::times(a, p) + b) / map.rest.unit).collect();
 }

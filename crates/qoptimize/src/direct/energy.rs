@@ -39,9 +39,11 @@ impl Terms {
     pub(super) fn of(objective: &Objective, rest: &Rest, uv: &[Vec2]) -> Self {
         match *objective {
             Objective::Direct { angle_term, .. } => {
-                let alone = |q, shape| value(&Objective::Direct { q, shape, angle_term }, rest, uv);
-                let area = alone(0.0, 0.0);
-                Self { angle: alone(1.0, 0.0), area, shape: alone(0.0, 1.0) - area }
+                let sums: Vec<[f64; 3]> =
+                    rest.par_chunks(CHUNK).map(|corners| kernel::terms(angle_term, corners, uv)).collect();
+                let [angle, area, shape] =
+                    sums.iter().fold([0.0; 3], |sum, terms| std::array::from_fn(|i| sum[i] + terms[i]));
+                Self { angle, area, shape }
             }
             Objective::Conformal { .. } => {
                 let alone = |q| value(&Objective::Conformal { q }, rest, uv);
@@ -70,4 +72,16 @@ pub(super) fn derivatives(
         kernel::derivatives(objective, corners, uv, gradients, triangles)
     };
     hessian.assemble(rest, corners).map_err(|corner| rest.ids[corner])
+}
+
+/// Energy and gradient alone; `hessian` keeps what it has.
+pub(super) fn gradient(
+    objective: &Objective,
+    rest: &Rest,
+    hessian: &mut Hessian,
+    uv: &[Vec2],
+) -> Result<(f64, Vec<f64>), CornerId> {
+    let corners =
+        |corners: Corners<'_>, gradients: &mut [Edges]| kernel::gradients(objective, corners, uv, gradients);
+    hessian.gradient(rest, corners).map_err(|corner| rest.ids[corner])
 }

@@ -188,6 +188,49 @@ impl Hessian {
         Ok((value, gradient))
     }
 
+    /// The sum of all values and the gradient as [`Hessian::assemble`] gives them; the matrix stays as it is.
+    pub(super) fn gradient(
+        &mut self,
+        rest: &Rest,
+        shares: impl Fn(Corners<'_>, &mut [Edges]) -> Result<f64, usize> + Sync,
+    ) -> Result<(f64, Vec<f64>), usize> {
+        let Self { layout, gradients, windows, .. } = self;
+        let count = rest.corners.len();
+        let mut gradient = vec![0.0; 2 * layout.vertex_count()];
+        let mut sums = Vec::new();
+        let length = if windows.is_some() { WINDOW } else { count };
+        for number in 0..count.div_ceil(length.max(1)) {
+            let window = number * length..((number + 1) * length).min(count);
+            gradients.resize(gradients.len().max(window.len()), [0.0; 4]);
+            let gradients = &mut gradients[..window.len()];
+            let chunks = rest.par_chunks_of(window.clone(), CHUNK).zip(gradients.par_chunks_mut(CHUNK));
+            let values = chunks.enumerate().map(|(chunk, (corners, gradients))| {
+                shares(corners, gradients).map_err(|place| window.start + chunk * CHUNK + place)
+            });
+            sums.par_extend(values);
+            let vertices = windows.as_ref().map(|windows| windows[number].as_slice());
+            layout.add_gradient(&mut gradient, &window, vertices, gradients);
+        }
+        Ok((sums.into_iter().sum::<Result<f64, usize>>()?, gradient))
+    }
+
+    /// Makes ready for [`Hessian::kept_direction`] what has been assembled at `uv`.
+    pub(super) fn renew(&mut self, uv: &[Vec2]) -> Result<(), SolveError> {
+        match &mut self.system {
+            System::Factored(system) => system.factor(),
+            System::Iterated(system) => system.refresh(uv),
+        }
+    }
+
+    /// What the last system that was solved makes of another right-hand side, about: `−H⁻¹ g`, from its factorization or one cycle
+    /// of its hierarchy. `None` where none was solved yet.
+    pub(super) fn kept_direction(&self, gradient: &[f64]) -> Option<Vec<Vec2>> {
+        match &self.system {
+            System::Factored(system) => system.kept_direction(gradient),
+            System::Iterated(system) => system.kept_direction(gradient),
+        }
+    }
+
     /// Takes the vertices marked in `fixed` out of the system; returns the gradient without them.
     pub(super) fn fix(&mut self, fixed: &[bool], mut gradient: Vec<f64>) -> Vec<f64> {
         for (pair, _) in gradient.chunks_exact_mut(2).zip(fixed).filter(|(_, fixed)| **fixed) {

@@ -4,6 +4,8 @@
 //! the mean of themselves and theirs. In floating point that mean is its own mirror image to the bit, so partners get the same `v` and opposite
 //! `u`, and vertices on the axis `u = 0`.
 
+use std::sync::Arc;
+
 use crate::ParameterizeError;
 use crate::plane::outline_flaws;
 use crate::qmesh::{QuadMesh, Vec2, VertexData};
@@ -50,7 +52,7 @@ impl Run<'_> {
             deviation: mirror.deviation,
             axis_vertices: mirror.axis_vertices(),
         });
-        Ok((Map { uv, rest }, report))
+        Ok((Map { uv, rest: Arc::new(rest) }, report))
     }
 
     /// A start is symmetric up to rounding; made so to the bit it may lose thin corners, which the untangler mends.

@@ -36,6 +36,7 @@ mod layout;
 mod mirrored;
 mod newton;
 mod options;
+mod predict;
 mod pull;
 pub(crate) mod rest;
 mod scaffold;
@@ -43,6 +44,7 @@ mod scale;
 mod start;
 mod step;
 mod system;
+mod tail;
 mod untangle;
 
 #[cfg(test)]

@@ -17,9 +17,9 @@ use super::step::first_collapse;
 use crate::convexity::Exempt;
 
 /// A step goes at most this fraction of the way to the first collapse of a corner.
-const COLLAPSE_FRACTION: f64 = 0.9;
+pub(super) const COLLAPSE_FRACTION: f64 = 0.9;
 /// Sufficient decrease [Armijo 1966].
-const ARMIJO: f64 = 1e-4;
+pub(super) const ARMIJO: f64 = 1e-4;
 /// How much shorter each trial is than the last.
 const SHRINK: f64 = 0.5;
 /// A whole step that lowers the energy by more than this, over its length and the decrement, is tried at twice the length. A
@@ -41,7 +41,7 @@ const LEAST_CALM_STEP: f64 = 0.5;
 /// After a step this short, cut off by corners about to collapse, an exact direction pays: it bends round more of them.
 const SHORT: f64 = 0.3;
 /// Energies are means of squares: below this there is nothing left that `f64` could tell from zero.
-const ENERGY_FLOOR: f64 = 1e-14;
+pub(super) const ENERGY_FLOOR: f64 = 1e-14;
 
 /// When the descent ends. All tolerances are relative and means, so a model in metres or inches, coarse or fine, ends alike.
 #[derive(Clone, Copy, Debug, PartialEq)]

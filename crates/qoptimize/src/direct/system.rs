@@ -7,8 +7,8 @@ use super::hessian::{Accuracy, Solved};
 use super::layout::{Block, Layout};
 use crate::qmesh::Vec2;
 use crate::qsolve::{
-    BlockMatrix, ConjugateGradients, CsrMatrix, DMatrix, LinearSolver, Multigrid, MultigridOptions,
-    SolveError, Structure, Symbolic,
+    BlockMatrix, ConjugateGradients, CsrMatrix, DMatrix, KeptFactors, LinearSolver, Multigrid,
+    MultigridOptions, SolveError, Structure, Symbolic,
 };
 
 /// Added to the diagonal relative to its mean: a free map may move and turn at no cost.
@@ -28,13 +28,15 @@ const LEAST_LAGGED: usize = 3;
 pub(super) struct Factored {
     matrix: CsrMatrix<f64>,
     symbolic: Symbolic,
+    /// Those of the last matrix that was solved with.
+    factors: Option<KeptFactors>,
 }
 
 impl Factored {
     pub(super) fn new(layout: &Layout) -> Result<Self, SolveError> {
         let matrix = scalar_zeros(layout);
         let symbolic = Symbolic::analyze(&matrix, Structure::SymmetricPositiveDefinite)?;
-        Ok(Self { matrix, symbolic })
+        Ok(Self { matrix, symbolic, factors: None })
     }
 
     /// `row(vertex, blocks)` gives the blocks of each vertex's row.
@@ -68,12 +70,28 @@ impl Factored {
         }
     }
 
+    pub(super) fn factor(&mut self) -> Result<(), SolveError> {
+        self.shift(GAUGE);
+        self.factors = None;
+        self.factors = Some(self.symbolic.factor(&self.matrix)?.into_factors());
+        Ok(())
+    }
+
     pub(super) fn solve(&mut self, gradient: &[f64]) -> Result<Solved, DescentError> {
         self.shift(GAUGE);
+        // Before there are others: both together would be the largest part of the memory.
+        self.factors = None;
         let factor = self.symbolic.factor(&self.matrix)?;
         let rhs = DMatrix::from_iterator(gradient.len(), 1, gradient.iter().map(|g| -g));
         let (solution, _) = factor.solve(&rhs, RESIDUAL_BOUND)?;
+        self.factors = Some(factor.into_factors());
         Ok(solved(solution.as_slice(), gradient, 0.0, 0))
+    }
+
+    pub(super) fn kept_direction(&self, gradient: &[f64]) -> Option<Vec<Vec2>> {
+        let mut direction: Vec<f64> = gradient.iter().map(|g| -g).collect();
+        self.symbolic.solve_in_place(self.factors.as_ref()?, &mut direction).ok()?;
+        Some(pairs(&direction))
     }
 
     /// Adds `share` of the diagonal's mean to the diagonal.
@@ -109,8 +127,12 @@ fn scalar_zeros(layout: &Layout) -> CsrMatrix<f64> {
         .expect("rows are in order and their columns ascend")
 }
 
+fn pairs(solution: &[f64]) -> Vec<Vec2> {
+    solution.chunks_exact(2).map(|d| Vec2::new(d[0], d[1])).collect()
+}
+
 fn solved(solution: &[f64], gradient: &[f64], missing: f64, iterations: usize) -> Solved {
-    let direction = solution.chunks_exact(2).map(|d| Vec2::new(d[0], d[1])).collect();
+    let direction = pairs(solution);
     let decrement = solution.iter().zip(gradient).map(|(d, g)| -d * g).sum();
     Solved { direction, decrement, missing, iterations }
 }
@@ -228,7 +250,15 @@ impl Iterated {
         Ok(solved(cg.solution(), gradient, cg.energy_left(), cg.iterations()))
     }
 
-    fn refresh(&mut self, uv: &[Vec2]) -> Result<(), SolveError> {
+    pub(super) fn kept_direction(&self, gradient: &[f64]) -> Option<Vec<Vec2>> {
+        let State::Ready(multigrid) = &self.state else { return None };
+        let right: Vec<f64> = gradient.iter().map(|g| -g).collect();
+        let mut direction = vec![0.0; right.len()];
+        multigrid.apply(&right, &mut direction);
+        Some(pairs(&direction))
+    }
+
+    pub(super) fn refresh(&mut self, uv: &[Vec2]) -> Result<(), SolveError> {
         let kernel = self.near_kernel(uv);
         match &mut self.state {
             State::Ready(multigrid) => multigrid.refresh(&kernel),

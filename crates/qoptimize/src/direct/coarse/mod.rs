@@ -23,7 +23,7 @@ mod tests;
 use std::ops::ControlFlow;
 
 use crate::convexity::Exempt;
-use crate::qmesh::{Observer, QuadMesh, Vec2};
+use crate::qmesh::{Observer, QuadMesh, Vec2, Vec3};
 
 use super::hessian::Hessian;
 use super::newton::descend;
@@ -47,14 +47,29 @@ const START: f64 = 0.3;
 pub(super) struct Sizes {
     /// Finest meshes with fewer are mapped at once.
     least: usize,
+    /// The same for surfaces as [open](is_open) as a disk.
+    least_open: usize,
     /// A coarse mesh with more is mapped by way of a coarser one. Below, surfaces with thin limbs would lose their shape.
     coarsest: usize,
 }
 
 impl Default for Sizes {
     fn default() -> Self {
-        Self { least: 12_000, coarsest: 30_000 }
+        Self { least: 12_000, least_open: 3_000, coarsest: 30_000 }
     }
+}
+
+/// The square of the boundary's length over the area is 4π for a flat disk and 16 for a square, and small for bags like heads.
+const OPEN: f64 = 6.0;
+
+/// Whether a surface has much boundary for its area, and in one piece: it then has no limbs that coarse meshes would lose.
+fn is_open(mesh: &QuadMesh) -> bool {
+    let [outline] = &mesh.boundary_loops()[..] else { return false };
+    let places: Vec<Vec3> =
+        mesh.loop_vertices(outline).into_iter().map(|vertex| mesh.position(vertex)).collect();
+    let next = places.iter().cycle().skip(1);
+    let length: f64 = places.iter().zip(next).map(|(a, b)| (b - a).norm()).sum();
+    length * length >= OPEN * crate::qcurv::surface_area(mesh)
 }
 
 /// A map of the planar patch `mesh` by way of coarser meshes, in units of `rest`, in which every corner turns left; `None` where there
@@ -67,7 +82,8 @@ pub(super) fn arrive(
     sizes: Sizes,
     observer: &dyn Observer,
 ) -> Option<Vec<Vec2>> {
-    if mesh.vertex_count() < sizes.least {
+    let count = mesh.vertex_count();
+    if count < sizes.least && (count < sizes.least_open || !is_open(mesh)) {
         return None;
     }
     let finest = Finest { mesh, exempt, unit: rest.unit, objective, sizes };

@@ -7,7 +7,7 @@ use crate::qmesh::VertexId;
 use crate::qmesh::shapes::{self, Hostility, hostile_disk};
 
 /// Everything is large enough to be mapped by way of coarser meshes.
-const ALWAYS: Sizes = Sizes { least: 0, coarsest: 120 };
+const ALWAYS: Sizes = Sizes { least: 0, least_open: 0, coarsest: 120 };
 
 fn arrived(mesh: &QuadMesh, objective: &Objective) -> (Rest, Vec<Vec2>) {
     let exempt = Exempt::find(mesh);
@@ -207,4 +207,30 @@ fn stopping_is_heard() {
     let stop = |_: &'static str, _: f64| ControlFlow::Break(());
     let held = arrive(&mesh, &exempt, &rest, &Objective::default(), ALWAYS, &stop);
     assert!(held.is_none_or(|uv| judge(&rest, &uv).bad == 0));
+}
+
+/// Squares, disks and hills are open; heads, fingers and surfaces with holes are not.
+#[test]
+fn bags_are_not_open() {
+    for mesh in
+        [shapes::grid(5, 3), shapes::disk(6), shapes::bump(9, 0.8), shapes::nose(12), shapes::saddle(8)]
+    {
+        assert!(is_open(&mesh));
+    }
+    for mesh in [shapes::head(1), shapes::finger(4, 40), shapes::cap(10, 2.5), grid_with_hole()] {
+        assert!(!is_open(&mesh));
+    }
+}
+
+/// Open surfaces of a few thousand vertices are mapped by way of a coarser one, others of that size at once.
+#[test]
+fn open_surfaces_need_fewer_vertices() {
+    let arrives = |mesh: &QuadMesh| {
+        let (exempt, objective) = (Exempt::find(mesh), Objective::default());
+        let rest = Rest::new(mesh, &exempt);
+        arrive(mesh, &exempt, &rest, &objective, Sizes::default(), &()).is_some()
+    };
+    assert!(arrives(&shapes::nose(60)));
+    assert!(!arrives(&shapes::nose(50)));
+    assert!(!arrives(&shapes::finger(10, 100)));
 }

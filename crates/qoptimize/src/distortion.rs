@@ -19,8 +19,10 @@
 
 mod benchmark;
 mod corners;
+mod eight;
 mod error;
 mod faces;
+mod quads;
 mod statistics;
 mod tally;
 

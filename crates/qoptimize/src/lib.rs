@@ -37,6 +37,7 @@ mod convexity;
 pub mod direct;
 pub mod distortion;
 mod error;
+mod lanes;
 pub mod overlap;
 pub mod pack;
 pub mod parameterize;

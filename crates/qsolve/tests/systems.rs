@@ -211,3 +211,24 @@ fn zero_gives_zero() {
         assert_eq!((x.amax(), record.relative_residual), (0.0, 0.0));
     }
 }
+
+/// Kept factors solve with the matrix that they were made of, whatever has become of it; those of another pattern are refused.
+#[test]
+fn kept_factors_outlive_their_matrix() {
+    let mut random = Random::new(5);
+    let matrix = spd(9, 10.0, &mut random);
+    let b = rhs(81, 1, &mut random);
+    let symbolic = Symbolic::analyze(&matrix, SPD).unwrap();
+    let factor = symbolic.factor(&matrix).unwrap();
+    let (x, _) = factor.solve(&b, 1e-10).unwrap();
+    let kept = factor.into_factors();
+    let mut y = b.as_slice().to_vec();
+    symbolic.solve_in_place(&kept, &mut y).unwrap();
+    assert!(y.iter().zip(x.iter()).all(|(y, x)| (y - x).abs() < 1e-12 * (1.0 + x.abs())));
+    let other = Symbolic::analyze(&spd(8, 10.0, &mut random), SPD).unwrap();
+    assert_eq!(other.solve_in_place(&kept, &mut y[..64]), Err(SolveError::OtherPattern));
+    assert!(matches!(
+        symbolic.solve_in_place(&kept, &mut y[..64]),
+        Err(SolveError::WrongRightHandSide { .. })
+    ));
+}

@@ -7,13 +7,11 @@ mod group;
 
 use std::ops::Range;
 
-use pulp::Arch;
-
 use super::element::{self, Edges};
-use super::lanes::{LANES, Lanes};
 use super::layout::Triangle;
 use super::rest::{Corners, unframed, unframed_triangle};
 use super::{AngleTerm, Objective};
+use crate::lanes::{LANES, Lanes, vectorized};
 use crate::qmesh::Vec2;
 use group::Group;
 
@@ -24,19 +22,22 @@ pub(super) fn value(objective: &Objective, chunk: Corners<'_>, uv: &[Vec2]) -> f
         places.map(|at| element::value(objective, &chunk.corners[at], chunk.edges(at, uv))).sum::<f64>()
     };
     let Objective::Direct { q, shape, angle_term } = *objective else { return one_by_one(0..count) };
-    Arch::new().dispatch(|| {
-        let (groups, last) = chunk.corners.as_chunks::<LANES>();
-        let mut sums = Lanes::ZERO;
-        let mut others = 0.0;
-        for (number, corners) in groups.iter().enumerate() {
-            let places = number * LANES..(number + 1) * LANES;
-            match Group::new(corners, chunk.frames.get(places.clone()), uv).value(q, shape, angle_term) {
-                Some(values) => sums += values,
-                None => others += one_by_one(places),
+    vectorized(
+        #[inline(always)]
+        || {
+            let (groups, last) = chunk.corners.as_chunks::<LANES>();
+            let mut sums = Lanes::ZERO;
+            let mut others = 0.0;
+            for (number, corners) in groups.iter().enumerate() {
+                let places = number * LANES..(number + 1) * LANES;
+                match Group::new(corners, chunk.frames.get(places.clone()), uv).value(q, shape, angle_term) {
+                    Some(values) => sums += values,
+                    None => others += one_by_one(places),
+                }
             }
-        }
-        sums.0.iter().sum::<f64>() + others + one_by_one(count - last.len()..count)
-    })
+            sums.0.iter().sum::<f64>() + others + one_by_one(count - last.len()..count)
+        },
+    )
 }
 
 /// The sums of the angle, area and symmetric Dirichlet terms of `corners`, each weighted as in the energy but for q and shape.
@@ -55,19 +56,22 @@ pub(super) fn terms(term: AngleTerm, chunk: Corners<'_>, uv: &[Vec2]) -> [f64; 3
         }
         sums
     };
-    Arch::new().dispatch(|| {
-        let (groups, last) = chunk.corners.as_chunks::<LANES>();
-        let mut sums = [Lanes::ZERO; 3];
-        let mut others = one_by_one(count - last.len()..count);
-        for (number, corners) in groups.iter().enumerate() {
-            let places = number * LANES..(number + 1) * LANES;
-            match Group::new(corners, chunk.frames.get(places.clone()), uv).terms(term) {
-                Some(terms) => (0..3).for_each(|i| sums[i] += terms[i]),
-                None => others.iter_mut().zip(one_by_one(places)).for_each(|(sum, term)| *sum += term),
+    vectorized(
+        #[inline(always)]
+        || {
+            let (groups, last) = chunk.corners.as_chunks::<LANES>();
+            let mut sums = [Lanes::ZERO; 3];
+            let mut others = one_by_one(count - last.len()..count);
+            for (number, corners) in groups.iter().enumerate() {
+                let places = number * LANES..(number + 1) * LANES;
+                match Group::new(corners, chunk.frames.get(places.clone()), uv).terms(term) {
+                    Some(terms) => (0..3).for_each(|i| sums[i] += terms[i]),
+                    None => others.iter_mut().zip(one_by_one(places)).for_each(|(sum, term)| *sum += term),
+                }
             }
-        }
-        std::array::from_fn(|i| sums[i].0.iter().sum::<f64>() + others[i])
-    })
+            std::array::from_fn(|i| sums[i].0.iter().sum::<f64>() + others[i])
+        },
+    )
 }
 
 /// Fills in gradient and Hessian of every corner and returns the sum of the energies, or the place of the first corner that is
@@ -120,24 +124,27 @@ fn gradients_by_edges(
     let Objective::Direct { q, shape, angle_term } = *objective else {
         return one_by_one(0..corners.len(), gradients);
     };
-    Arch::new().dispatch(|| {
-        let (groups, last) = corners.as_chunks::<LANES>();
-        let mut sums = Lanes::ZERO;
-        let mut others = 0.0;
-        for (number, corners) in groups.iter().enumerate() {
-            let places = number * LANES..(number + 1) * LANES;
-            let group = Group::new(corners, chunk.frames.get(places.clone()), uv);
-            match group.derivatives::<false>(q, shape, angle_term) {
-                Some(eight) => {
-                    sums += eight.value;
-                    eight.store_gradients(&mut gradients[places]);
+    vectorized(
+        #[inline(always)]
+        || {
+            let (groups, last) = corners.as_chunks::<LANES>();
+            let mut sums = Lanes::ZERO;
+            let mut others = 0.0;
+            for (number, corners) in groups.iter().enumerate() {
+                let places = number * LANES..(number + 1) * LANES;
+                let group = Group::new(corners, chunk.frames.get(places.clone()), uv);
+                match group.derivatives::<false>(q, shape, angle_term) {
+                    Some(eight) => {
+                        sums += eight.value;
+                        eight.store_gradients(&mut gradients[places]);
+                    }
+                    None => others += one_by_one(places, gradients)?,
                 }
-                None => others += one_by_one(places, gradients)?,
             }
-        }
-        others += one_by_one(corners.len() - last.len()..corners.len(), gradients)?;
-        Ok(sums.0.iter().sum::<f64>() + others)
-    })
+            others += one_by_one(corners.len() - last.len()..corners.len(), gradients)?;
+            Ok(sums.0.iter().sum::<f64>() + others)
+        },
+    )
 }
 
 /// The same by the edge vectors of what the triangles stand for.
@@ -162,22 +169,25 @@ fn derivatives_by_edges(
     let Objective::Direct { q, shape, angle_term } = *objective else {
         return one_by_one(0..corners.len(), gradients, triangles);
     };
-    Arch::new().dispatch(|| {
-        let (groups, last) = corners.as_chunks::<LANES>();
-        let mut sums = Lanes::ZERO;
-        let mut others = 0.0;
-        for (number, corners) in groups.iter().enumerate() {
-            let places = number * LANES..(number + 1) * LANES;
-            let group = Group::new(corners, chunk.frames.get(places.clone()), uv);
-            match group.derivatives::<true>(q, shape, angle_term) {
-                Some(eight) => {
-                    sums += eight.value;
-                    eight.store(&mut gradients[places.clone()], &mut triangles[places]);
+    vectorized(
+        #[inline(always)]
+        || {
+            let (groups, last) = corners.as_chunks::<LANES>();
+            let mut sums = Lanes::ZERO;
+            let mut others = 0.0;
+            for (number, corners) in groups.iter().enumerate() {
+                let places = number * LANES..(number + 1) * LANES;
+                let group = Group::new(corners, chunk.frames.get(places.clone()), uv);
+                match group.derivatives::<true>(q, shape, angle_term) {
+                    Some(eight) => {
+                        sums += eight.value;
+                        eight.store(&mut gradients[places.clone()], &mut triangles[places]);
+                    }
+                    None => others += one_by_one(places, gradients, triangles)?,
                 }
-                None => others += one_by_one(places, gradients, triangles)?,
             }
-        }
-        others += one_by_one(corners.len() - last.len()..corners.len(), gradients, triangles)?;
-        Ok(sums.0.iter().sum::<f64>() + others)
-    })
+            others += one_by_one(corners.len() - last.len()..corners.len(), gradients, triangles)?;
+            Ok(sums.0.iter().sum::<f64>() + others)
+        },
+    )
 }

@@ -31,7 +31,6 @@ mod held;
 mod hessian;
 mod isotropic;
 mod kernel;
-mod lanes;
 mod layout;
 mod mirrored;
 mod newton;

@@ -1,11 +1,10 @@
 //! How far a step may go: no corner may reach zero area.
 
-use pulp::Arch;
 use rayon::prelude::*;
 
+use crate::lanes::{LANES, Lanes, vectorized};
 use crate::qmesh::Vec2;
 
-use super::lanes::{LANES, Lanes};
 use super::rest::{Rest, RestCorner};
 
 /// Corners that one task takes.
@@ -20,7 +19,7 @@ pub(super) fn first_collapse(rest: &Rest, uv: &[Vec2], direction: &[Vec2]) -> f6
 }
 
 fn first_of(corners: &[RestCorner], uv: &[Vec2], direction: &[Vec2]) -> f64 {
-    Arch::new().dispatch(
+    vectorized(
         #[inline(always)]
         || {
             let mut first = Lanes::all(f64::INFINITY);

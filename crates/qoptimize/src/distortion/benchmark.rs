@@ -7,7 +7,10 @@ use std::ops::Range;
 use qembed::qmesh::{Vec2, Vec3};
 
 use super::corners::{Stretch, Surface, turn};
+use super::eight::{Eight, FANS};
 use super::statistics::by_runs;
+use super::tally::two_quads;
+use crate::lanes::{LANES, Lanes, vectorized};
 
 /// The measures of the benchmark of Shay, Solomon and Stein (2022) under their names, on fans of triangles from each
 /// face's first corner, as theirs. `None` stands for infinity: some triangle has collapsed in the plane.
@@ -75,31 +78,156 @@ struct Sums {
     dirichlet: f64,
 }
 
+/// Areas in space and, unsigned, in the plane.
+fn areas(surface: &Surface<'_>, faces: Range<usize>) -> [f64; 2] {
+    let (mut sums, mut others) = ([Lanes::ZERO; 2], [0.0; 2]);
+    vectorized(
+        #[inline(always)]
+        || {
+            let mut face = faces.start;
+            while face < faces.end {
+                if let Some(eight) = four_quads(surface, face, &faces) {
+                    sums[0] += eight.space_area;
+                    sums[1] += eight.plane_area;
+                    face += 4;
+                    continue;
+                }
+                for triangle in fans(surface, face..face + 1) {
+                    others[0] += triangle.space_area;
+                    others[1] += triangle.turn.abs() / 2.0;
+                }
+                face += 1;
+            }
+        },
+    );
+    std::array::from_fn(|i| sums[i].0.iter().sum::<f64>() + others[i])
+}
+
+/// The fans of four quads, if `face` and the next three in `faces` are ordinary ones.
+#[inline(always)]
+fn four_quads(surface: &Surface<'_>, face: usize, faces: &Range<usize>) -> Option<Eight> {
+    let first = two_quads(surface, face, faces)?;
+    two_quads(surface, face + 2, faces)?;
+    Eight::of::<16>(surface, first, &FANS)
+}
+
 /// `space` and `plane`: what lengths are multiplied with so that each surface has area 1.
 fn sums(surface: &Surface<'_>, faces: Range<usize>, space: f64, plane: f64) -> Sums {
     let mut sums = Sums::default();
-    for triangle in fans(surface, faces) {
-        let area = triangle.space_area * space * space;
-        let plane_area = triangle.turn.abs() / 2.0 * plane * plane;
-        sums.area_difference += (plane_area - area).abs();
-        if area < NO_AREA {
-            continue;
-        }
-        let [a, b, c] = triangle.space;
-        let [p, q, r] = triangle.plane;
-        let edges = [(b - a) * space, (c - a) * space];
-        let stretch = Stretch::of(edges, area, [(q - p) * plane, (r - p) * plane], plane_area);
-        let (s1, s2) = (stretch.large, stretch.small);
-        sums.triangles += 1;
-        sums.flipped += usize::from(triangle.turn < 0.0);
-        sums.area_ratio = sums.area_ratio.max(plane_area / area + area / plane_area);
-        sums.smallest = Some(sums.smallest.map_or(s2, |s| s.min(s2)));
-        sums.largest = sums.largest.max(s1);
-        sums.angle_ratio = sums.angle_ratio.max(if s2 > 0.0 { s1 / s2 + s2 / s1 } else { f64::INFINITY });
-        sums.angle_difference += area * angle_difference(&triangle);
-        sums.dirichlet += area * 0.5 * (s1 * s1 + s2 * s2 + 1.0 / (s1 * s1) + 1.0 / (s2 * s2));
-    }
+    vectorized(
+        #[inline(always)]
+        || {
+            let mut fours = Fours::new();
+            let mut face = faces.start;
+            while face < faces.end {
+                let eight = four_quads(surface, face, &faces);
+                if eight.is_some_and(|eight| fours.add(&eight, space, plane)) {
+                    face += 4;
+                } else {
+                    sums.add(surface, face..face + 1, space, plane);
+                    face += 1;
+                }
+            }
+            fours.add_to(&mut sums);
+        },
+    );
     sums
+}
+
+/// Sums over quads, four at a time.
+struct Fours {
+    triangles: usize,
+    area_ratio: Lanes,
+    area_difference: Lanes,
+    smallest: Lanes,
+    largest: Lanes,
+    angle_ratio: Lanes,
+    angle_difference: Lanes,
+    dirichlet: Lanes,
+}
+
+impl Fours {
+    fn new() -> Self {
+        let zero = Lanes::ZERO;
+        Self {
+            triangles: 0,
+            area_ratio: zero,
+            area_difference: zero,
+            smallest: Lanes::all(f64::INFINITY),
+            largest: zero,
+            angle_ratio: zero,
+            angle_difference: zero,
+            dirichlet: zero,
+        }
+    }
+
+    /// False, with nothing done, when one of the triangles is to be looked at closely.
+    #[inline(always)]
+    fn add(&mut self, eight: &Eight, space: f64, plane: f64) -> bool {
+        let area = eight.space_area * (space * space);
+        let Some(stretches) = eight.stretches(space, plane) else { return false };
+        if !area.all_above(NO_AREA) {
+            return false;
+        }
+        let plane_area = eight.plane_area * (plane * plane);
+        let (s1, s2) = (stretches.large, stretches.small);
+        let larger = |a: Lanes, b: Lanes| a.if_less(b, b, a);
+        let ([theta, phi], [theta2, phi2]) = (eight.angles(), eight.second_angles());
+        let (first, second) = (theta - phi, theta2 - phi2);
+        self.triangles += LANES;
+        self.area_difference += (plane_area - area).abs();
+        self.area_ratio = larger(self.area_ratio, plane_area * area.recip() + area * plane_area.recip());
+        self.smallest = s2.if_less(self.smallest, s2, self.smallest);
+        self.largest = larger(self.largest, s1);
+        self.angle_ratio = larger(self.angle_ratio, s1 * s2.recip() + s2 * s1.recip());
+        self.angle_difference += area * (first.abs() + second.abs() + (first + second).abs());
+        self.dirichlet += area * (s1 * s1 + s2 * s2 + (s1 * s1).recip() + (s2 * s2).recip()) * 0.5;
+        true
+    }
+
+    fn add_to(&self, sums: &mut Sums) {
+        let sum = |lanes: Lanes| lanes.0.iter().sum::<f64>();
+        let largest = |lanes: Lanes| lanes.0.into_iter().fold(0.0, f64::max);
+        sums.triangles += self.triangles;
+        sums.area_ratio = sums.area_ratio.max(largest(self.area_ratio));
+        sums.area_difference += sum(self.area_difference);
+        if self.triangles > 0 {
+            let smallest = self.smallest.0.into_iter().fold(f64::INFINITY, f64::min);
+            sums.smallest = Some(sums.smallest.map_or(smallest, |s| s.min(smallest)));
+        }
+        sums.largest = sums.largest.max(largest(self.largest));
+        sums.angle_ratio = sums.angle_ratio.max(largest(self.angle_ratio));
+        sums.angle_difference += sum(self.angle_difference);
+        sums.dirichlet += sum(self.dirichlet);
+    }
+}
+
+impl Sums {
+    /// Faces one by one.
+    fn add(&mut self, surface: &Surface<'_>, faces: Range<usize>, space: f64, plane: f64) {
+        let sums = self;
+        for triangle in fans(surface, faces) {
+            let area = triangle.space_area * space * space;
+            let plane_area = triangle.turn.abs() / 2.0 * plane * plane;
+            sums.area_difference += (plane_area - area).abs();
+            if area < NO_AREA {
+                continue;
+            }
+            let [a, b, c] = triangle.space;
+            let [p, q, r] = triangle.plane;
+            let edges = [(b - a) * space, (c - a) * space];
+            let stretch = Stretch::of(edges, area, [(q - p) * plane, (r - p) * plane], plane_area);
+            let (s1, s2) = (stretch.large, stretch.small);
+            sums.triangles += 1;
+            sums.flipped += usize::from(triangle.turn < 0.0);
+            sums.area_ratio = sums.area_ratio.max(plane_area / area + area / plane_area);
+            sums.smallest = Some(sums.smallest.map_or(s2, |s| s.min(s2)));
+            sums.largest = sums.largest.max(s1);
+            sums.angle_ratio = sums.angle_ratio.max(if s2 > 0.0 { s1 / s2 + s2 / s1 } else { f64::INFINITY });
+            sums.angle_difference += area * angle_difference(&triangle);
+            sums.dirichlet += area * 0.5 * (s1 * s1 + s2 * s2 + 1.0 / (s1 * s1) + 1.0 / (s2 * s2));
+        }
+    }
 }
 
 /// Sum over the corners of the change of the (unsigned) angle; a full turn for each when a side has no length.
@@ -121,10 +249,8 @@ fn angle_difference(triangle: &Triangle) -> f64 {
 
 pub(super) fn benchmark(surface: &Surface<'_>) -> Benchmark {
     let faces = surface.polygons.face_count();
-    let totals = by_runs(faces, |run| {
-        fans(surface, run).fold((0.0, 0.0), |(s, p), t| (s + t.space_area, p + t.turn.abs() / 2.0))
-    });
-    let (space, plane) = totals.iter().fold((0.0, 0.0), |(s, p), part| (s + part.0, p + part.1));
+    let totals = by_runs(faces, |run| areas(surface, run));
+    let (space, plane) = totals.iter().fold((0.0, 0.0), |(s, p), part| (s + part[0], p + part[1]));
     // Without area there is nothing to scale, and the measures say so as they are.
     let unit = |area: f64| if area > 0.0 { f64::sqrt(1.0 / area) } else { 1.0 };
     let (space, plane) = (unit(space), unit(plane));

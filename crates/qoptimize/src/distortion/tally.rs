@@ -3,15 +3,18 @@
 use std::ops::Range;
 
 use super::corners::{Corner, Stretch, Surface};
+use super::eight::{CORNERS, Eight};
+use super::quads::Quads;
+use crate::lanes::{Lanes, vectorized};
 
 /// UV angles below this (radians) count as this.
-const ANGLE_CLAMP: f64 = 1e-9;
+pub(super) const ANGLE_CLAMP: f64 = 1e-9;
 /// UV areas below this fraction of the mean count as this.
 const AREA_CLAMP: f64 = 1e-12;
 /// Corner triangles below this fraction of the mean area in space have no measurable stretch.
 const DEGENERATE: f64 = 1e-14;
 /// Squares of stretches are cut off here, so that their sums stay finite.
-const STRETCH_LIMIT: f64 = 1e150;
+pub(super) const STRETCH_LIMIT: f64 = 1e150;
 
 /// A corner triangle's share of its face's area: a quad's four cover it twice, a triangle's three are the same.
 pub(super) fn face_weight(degree: usize) -> f64 {
@@ -20,6 +23,12 @@ pub(super) fn face_weight(degree: usize) -> f64 {
         4 => 0.5,
         n => 1.0 / n.saturating_sub(2).max(1) as f64,
     }
+}
+
+/// Where the corners of two quads start, if `face` and the one after it in `faces` are quads.
+pub(super) fn two_quads(surface: &Surface<'_>, face: usize, faces: &Range<usize>) -> Option<usize> {
+    let are_quads = face + 1 < faces.end && (face..face + 2).all(|f| surface.polygons.corners(f).len() == 4);
+    are_quads.then(|| surface.polygons.corners(face).start)
 }
 
 /// Areas of a run of faces, before anything is scaled.
@@ -38,18 +47,47 @@ pub(super) struct Areas {
 impl Areas {
     pub(super) fn of(surface: &Surface<'_>, faces: Range<usize>) -> Self {
         let mut areas = Self::default();
-        for face in faces {
-            let range = surface.polygons.corners(face);
-            let weight = face_weight(range.len());
-            for index in range.clone() {
-                let corner = surface.corner(&range, index);
-                areas.space += weight * corner.space_area;
-                areas.plane += weight * corner.plane_area.abs();
-                areas.corners += corner.plane_area.abs();
-            }
-            areas.faces.push(surface.signed_area(&range));
-        }
+        vectorized(
+            #[inline(always)]
+            || {
+                let mut sums = [Lanes::ZERO; 2];
+                let mut face = faces.start;
+                while face < faces.end {
+                    let eight = two_quads(surface, face, &faces)
+                        .and_then(|first| Eight::of::<8>(surface, first, &CORNERS));
+                    let done = match eight {
+                        Some(eight) => {
+                            sums[0] += eight.space_area;
+                            sums[1] += eight.plane_area;
+                            2
+                        }
+                        None => {
+                            areas.add(surface, &surface.polygons.corners(face));
+                            1
+                        }
+                    };
+                    let next = (face..face + done).map(|face| surface.polygons.corners(face));
+                    areas.faces.extend(next.map(|range| surface.signed_area(&range)));
+                    face += done;
+                }
+                let [space, plane] = sums.map(|sum| sum.0.iter().sum::<f64>());
+                areas.space += face_weight(4) * space;
+                areas.plane += face_weight(4) * plane;
+                areas.corners += plane;
+            },
+        );
         areas
+    }
+
+    /// A face by itself.
+    fn add(&mut self, surface: &Surface<'_>, range: &Range<usize>) {
+        let weight = face_weight(range.len());
+        for index in range.clone() {
+            let corner = surface.corner(range, index);
+            self.space += weight * corner.space_area;
+            self.plane += weight * corner.plane_area.abs();
+            self.corners += corner.plane_area.abs();
+        }
     }
 
     pub(super) fn append(&mut self, mut other: Self) {
@@ -131,13 +169,28 @@ pub(super) struct Tally {
 impl Tally {
     pub(super) fn of(frame: &Frame<'_>, faces: Range<usize>, signed_areas: &[f64]) -> Self {
         let mut tally = Self::default();
-        let mut corners = Vec::new();
-        for face in faces {
-            let range = frame.surface.polygons.corners(face);
-            corners.clear();
-            corners.extend(range.clone().map(|corner| frame.surface.corner(&range, corner)));
-            tally.add_face(frame, &corners, (frame.mirror)(face), signed_areas[face]);
-        }
+        let is_upright = |face: usize| (frame.mirror)(face) == 1.0 && signed_areas[face] > 0.0;
+        vectorized(
+            #[inline(always)]
+            || {
+                let mut quads = Quads::NONE;
+                let mut face = faces.start;
+                while face < faces.end {
+                    let two = two_quads(&frame.surface, face, &faces)
+                        .filter(|_| is_upright(face) && is_upright(face + 1));
+                    if two.is_some_and(|first| quads.add(frame, first, &mut tally)) {
+                        face += 2;
+                        continue;
+                    }
+                    let range = frame.surface.polygons.corners(face);
+                    let corners: Vec<Corner> =
+                        range.clone().map(|corner| frame.surface.corner(&range, corner)).collect();
+                    tally.add_face(frame, &corners, (frame.mirror)(face), signed_areas[face]);
+                    face += 1;
+                }
+                quads.add_to(&mut tally);
+            },
+        );
         tally
     }
 

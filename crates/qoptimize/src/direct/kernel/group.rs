@@ -3,9 +3,9 @@
 
 use super::super::AngleTerm;
 use super::super::element::Edges;
-use super::super::lanes::{LANES, Lanes};
 use super::super::layout::Triangle;
 use super::super::rest::{Frame, RestCorner, framed};
+use crate::lanes::{LANES, Lanes};
 use crate::qmesh::Vec2;
 
 /// Doubled areas and angles below this are left to the careful way.

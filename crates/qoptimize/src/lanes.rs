@@ -2,13 +2,21 @@
 //! are those of the same operations one by one, so they are the same on every machine.
 #![allow(clippy::needless_range_loop, clippy::assign_op_pattern)] // loops over lanes become vector instructions
 
+use pulp::Arch;
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
+/// Runs `act`, a closure that is always inlined, with the widest vector instructions that there are.
+///
+/// Closures have to come here by way of this bound, `FnOnce`: only then are they inlined where those instructions are allowed.
+pub(crate) fn vectorized<R>(act: impl FnOnce() -> R) -> R {
+    Arch::new().dispatch(act)
+}
+
 /// How many numbers go together.
-pub(super) const LANES: usize = 8;
+pub(crate) const LANES: usize = 8;
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Lanes(pub(super) [f64; LANES]);
+pub(crate) struct Lanes(pub(crate) [f64; LANES]);
 
 macro_rules! lane_by_lane {
     ($trait:ident, $function:ident, $operator:tt) => {
@@ -62,15 +70,15 @@ impl Neg for Lanes {
 }
 
 impl Lanes {
-    pub(super) const ZERO: Self = Self([0.0; LANES]);
+    pub(crate) const ZERO: Self = Self([0.0; LANES]);
 
     #[inline(always)]
-    pub(super) fn all(value: f64) -> Self {
+    pub(crate) fn all(value: f64) -> Self {
         Self([value; LANES])
     }
 
     #[inline(always)]
-    pub(super) fn recip(mut self) -> Self {
+    pub(crate) fn recip(mut self) -> Self {
         for l in 0..LANES {
             self.0[l] = 1.0 / self.0[l];
         }
@@ -78,7 +86,7 @@ impl Lanes {
     }
 
     #[inline(always)]
-    pub(super) fn sqrt(mut self) -> Self {
+    pub(crate) fn sqrt(mut self) -> Self {
         for l in 0..LANES {
             self.0[l] = self.0[l].sqrt();
         }
@@ -86,7 +94,7 @@ impl Lanes {
     }
 
     #[inline(always)]
-    pub(super) fn abs(mut self) -> Self {
+    pub(crate) fn abs(mut self) -> Self {
         for l in 0..LANES {
             self.0[l] = self.0[l].abs();
         }
@@ -95,7 +103,7 @@ impl Lanes {
 
     /// Where `self < bound` the one, elsewhere the other.
     #[inline(always)]
-    pub(super) fn if_less(self, bound: Self, then: Self, otherwise: Self) -> Self {
+    pub(crate) fn if_less(self, bound: Self, then: Self, otherwise: Self) -> Self {
         let mut chosen = otherwise;
         for l in 0..LANES {
             chosen.0[l] = if self.0[l] < bound.0[l] { then.0[l] } else { otherwise.0[l] };
@@ -105,7 +113,7 @@ impl Lanes {
 
     /// Whether all are normal numbers above `bound`.
     #[inline(always)]
-    pub(super) fn all_above(self, bound: f64) -> bool {
+    pub(crate) fn all_above(self, bound: f64) -> bool {
         let mut all = true;
         for l in 0..LANES {
             all &= self.0[l] > bound && self.0[l] < f64::MAX;
@@ -117,7 +125,7 @@ impl Lanes {
     ///
     /// [Cephes Mathematical Library, Moshier 1989, log.c]: a rational function of the mantissa between √½ and √2.
     #[inline(always)]
-    pub(super) fn ln(self) -> Self {
+    pub(crate) fn ln(self) -> Self {
         const P: [f64; 6] = [
             1.018_756_638_045_809_3e-4,
             4.974_949_949_767_47e-1,
@@ -155,7 +163,7 @@ impl Lanes {
     ///
     /// [Cephes Mathematical Library, Moshier 1989, atan.c]: a rational function of tangents up to 0.66.
     #[inline(always)]
-    pub(super) fn atan2_positive(self, x: Self) -> Self {
+    pub(crate) fn atan2_positive(self, x: Self) -> Self {
         const P: [f64; 5] = [
             -8.750_608_600_031_904e-1,
             -1.615_753_718_733_365e1,

@@ -14,7 +14,8 @@ pub(super) struct Constraint {
 }
 
 impl Constraint {
-    fn is_open(&self) -> bool {
+    /// Whether there is none.
+    pub(super) fn is_open(&self) -> bool {
         self.held.is_empty() && self.mirror.is_empty()
     }
 

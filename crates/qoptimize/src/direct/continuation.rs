@@ -11,12 +11,13 @@ use crate::qmesh::{QuadMesh, Vec2};
 use super::coarse::{Sizes, arrive};
 use super::embed::{Map, Run};
 use super::hessian::Hessian;
+use super::learnt::Learnt;
 use super::newton::descend;
 use super::predict::Series;
 use super::rest::Rest;
 use super::scale::to_best_scale;
 use super::start::{Origin, judge};
-use super::tail::{self, Learnt};
+use super::tail;
 use super::{
     Descent, DescentError, DescentOptions, DirectReport, Objective, Start, StartMethod, Stop, energy,
 };

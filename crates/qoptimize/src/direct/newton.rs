@@ -13,6 +13,7 @@ use super::energy;
 use super::hessian::{Accuracy, Hessian, Solved};
 use super::rest::Rest;
 use super::scale::to_best_scale;
+use super::slow;
 use super::step::first_collapse;
 use crate::convexity::Exempt;
 
@@ -21,7 +22,7 @@ pub(super) const COLLAPSE_FRACTION: f64 = 0.9;
 /// Sufficient decrease [Armijo 1966].
 pub(super) const ARMIJO: f64 = 1e-4;
 /// How much shorter each trial is than the last.
-const SHRINK: f64 = 0.5;
+pub(super) const SHRINK: f64 = 0.5;
 /// A whole step that lowers the energy by more than this, over its length and the decrement, is tried at twice the length. A
 /// quadratic function gives 1/2, `1/s²` gives 0.66.
 const MORE_THAN_PROMISED: f64 = 0.55;
@@ -40,6 +41,10 @@ const CALM: f64 = 0.1;
 const LEAST_CALM_STEP: f64 = 0.5;
 /// After a step this short, cut off by corners about to collapse, an exact direction pays: it bends round more of them.
 const SHORT: f64 = 0.3;
+/// A system that takes so many iterations, for a step that lowers the energy by no more than this fraction, is ill-conditioned:
+/// the rest of the way goes by [steps without systems](super::slow).
+const MANY_ITERATIONS: usize = 8;
+const SLOW_DECREASE: f64 = 4e-4;
 /// Energies are means of squares: below this there is nothing left that `f64` could tell from zero.
 pub(super) const ENERGY_FLOOR: f64 = 1e-14;
 
@@ -47,7 +52,7 @@ pub(super) const ENERGY_FLOOR: f64 = 1e-14;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DescentOptions {
-    /// Steps at most. Default 200.
+    /// Steps at most. Default 200. Where ill-conditioned systems make way for quasi-Newton steps, four of those count as one.
     pub max_steps: usize,
     /// Stop when half the Newton decrement, the decrease that the quadratic model promises, is below this fraction of the
     /// energy. Default `1e-5`.
@@ -81,7 +86,7 @@ pub enum Stop {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Descent {
-    /// Steps made.
+    /// Steps made; four quasi-Newton steps count as one.
     pub steps: usize,
     /// Iterations of conjugate gradients, over all steps; 0 where the Newton systems were factorized.
     pub iterations: usize,
@@ -151,6 +156,7 @@ pub(super) fn descend(
         stop: Stop::MaxSteps,
     };
     let mut lagged = false;
+    let mut may_be_slow = rest.constraint.is_open();
     let mut memory = Memory::default();
     loop {
         hessian.reconsider()?;
@@ -186,7 +192,7 @@ pub(super) fn descend(
             return Ok(Descent { stop: Stop::Converged, ..descent });
         }
         let joint = memory.conjugate(&mut direction, &gradient, decrement);
-        match line_search(rest, uv, objective, &direction, energy, joint) {
+        let is_slow = match line_search(rest, uv, objective, &direction, energy, joint) {
             Some(moved) => {
                 let fell = (energy - moved.energy) / energy;
                 lagged = moved.step >= LAG_STEP && fell <= LAG_DECREASE;
@@ -198,6 +204,7 @@ pub(super) fn descend(
                 if moved.step < SHORT && solved_iterations > 0 {
                     hessian.factorize_unless_huge()?;
                 }
+                may_be_slow && fell <= SLOW_DECREASE && solved_iterations >= MANY_ITERATIONS
             }
             // A direction from an old preconditioner or an old direction may be a poor one.
             None if lagged || !memory.is_empty() => {
@@ -206,8 +213,19 @@ pub(super) fn descend(
                 continue;
             }
             None => return Ok(Descent { stop: Stop::Stalled, ..descent }),
-        }
+        };
         descent.steps += 1;
+        if is_slow && !hessian.is_factored() {
+            let most = options.max_steps - descent.steps;
+            let walked = slow::walk(rest, hessian, uv, objective, options, most, observer)?;
+            descent.steps += walked.steps;
+            descent.energy = walked.energy;
+            if walked.stop != Stop::Stalled {
+                return Ok(Descent { stop: walked.stop, ..descent });
+            }
+            (may_be_slow, lagged) = (false, false);
+            memory.forget();
+        }
     }
 }
 

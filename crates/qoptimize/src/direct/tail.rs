@@ -4,7 +4,6 @@
 //! with the last system that was solved take a gradient and one cycle of its hierarchy, or one solution with its factors: a fifth
 //! of a Newton step. What they learn of the second derivatives holds for the next map too.
 
-use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
 use rayon::prelude::*;
@@ -14,13 +13,12 @@ use crate::qmesh::{Observer, Vec2};
 use super::conjugate::dot;
 use super::energy;
 use super::hessian::Hessian;
+use super::learnt::Learnt;
 use super::newton::{ARMIJO, COLLAPSE_FRACTION, ENERGY_FLOOR};
 use super::rest::Rest;
 use super::step::first_collapse;
 use super::{Descent, DescentError, DescentOptions, Objective, Stop};
 
-/// Steps that are remembered.
-const MEMORY: usize = 5;
 /// The decrement is known less well than after a Newton step: it has to be this much smaller than what ends a descent.
 const MARGIN: f64 = 0.25;
 /// A decrement of more than this fraction of the energy is for Newton steps.
@@ -30,52 +28,6 @@ const LEAST_PROGRESS: f64 = 0.5;
 const MOST_STEPS: usize = 15;
 /// Vertices that one task takes.
 const CHUNK: usize = 8192;
-
-/// Steps `s` and the changes of the gradient `y` along them.
-#[derive(Debug, Default)]
-pub(super) struct Learnt {
-    pairs: VecDeque<Pair>,
-}
-
-#[derive(Debug)]
-struct Pair {
-    step: Vec<Vec2>,
-    change: Vec<f64>,
-    /// Their scalar product.
-    curvature: f64,
-}
-
-impl Learnt {
-    fn learn(&mut self, step: Vec<Vec2>, change: Vec<f64>) {
-        let curvature = dot(&change, &step);
-        if curvature > 0.0 {
-            if self.pairs.len() == MEMORY {
-                self.pairs.pop_front();
-            }
-            self.pairs.push_back(Pair { step, change, curvature });
-        }
-    }
-
-    /// `−H⁻¹ g`, where `hessian` keeps the first idea of H.
-    fn direction(&self, hessian: &Hessian, gradient: &[f64]) -> Option<Vec<Vec2>> {
-        let mut right = gradient.to_vec();
-        let mut shares = Vec::with_capacity(self.pairs.len());
-        for pair in self.pairs.iter().rev() {
-            let share = dot(&right, &pair.step) / pair.curvature;
-            let entries = right.par_iter_mut().with_min_len(CHUNK).zip(&pair.change);
-            entries.for_each(|(r, y)| *r -= share * y);
-            shares.push(share);
-        }
-        let mut direction = hessian.kept_direction(&right)?;
-        for (pair, share) in self.pairs.iter().zip(shares.into_iter().rev()) {
-            // The direction is downhill, so its share is negative.
-            let factor = -share - dot(&pair.change, &direction) / pair.curvature;
-            let entries = direction.par_iter_mut().with_min_len(CHUNK).zip(&pair.step);
-            entries.for_each(|(d, s)| *d += s * factor);
-        }
-        Some(direction)
-    }
-}
 
 /// Walks down from near the minimum. Stops with [`Stop::MaxSteps`] when the rest of the way, or all of it, is for Newton steps.
 pub(super) fn walk(

@@ -5,3 +5,4 @@ mod continuation;
 mod derivatives;
 mod ellipticity;
 mod existence;
+mod slow;

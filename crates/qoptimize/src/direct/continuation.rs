@@ -17,7 +17,7 @@ use super::predict::Series;
 use super::rest::Rest;
 use super::scale::to_best_scale;
 use super::start::{Origin, judge};
-use super::tail;
+use super::tail::Tail;
 use super::{
     Descent, DescentError, DescentOptions, DirectReport, Objective, Start, StartMethod, Stop, energy,
 };
@@ -151,12 +151,15 @@ impl Kept {
 
     /// How far one gets from where the other maps say that this one lies; `None` where they say nothing of use.
     fn walked(&mut self, run: &Run<'_>) -> Result<Option<(Vec<Vec2>, Descent)>, DescentError> {
-        if self.series.is_empty() {
-            return Ok(None);
-        }
-        let mut uv = self.series.predicted(run.objective).unwrap_or_else(|| self.nearest(run.objective));
+        let Some(nearest) = self.series.nearest(run.objective) else { return Ok(None) };
+        let energy = |uv: &[Vec2]| energy::value(run.objective, &self.rest, uv);
+        // Where corners are squeezed a prediction may go too far.
+        let predicted =
+            self.series.predicted(run.objective).filter(|predicted| energy(predicted) < energy(nearest));
+        let mut uv = predicted.unwrap_or_else(|| nearest.to_vec());
         let Self { rest, hessian, learnt, .. } = self;
-        match tail::walk(rest, hessian, learnt, &mut uv, run.objective, run.options, run.observer) {
+        let mut tail = Tail { rest, hessian, learnt, objective: run.objective };
+        match tail.walk(&mut uv, run.options, run.observer) {
             Ok(descent) => Ok(Some((uv, descent))),
             Err(DescentError::InvalidStart(_)) => Ok(None),
             Err(error) => Err(error),

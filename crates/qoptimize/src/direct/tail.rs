@@ -24,76 +24,131 @@ const MARGIN: f64 = 0.25;
 /// A decrement of more than this fraction of the energy is for Newton steps.
 const FAR: f64 = 0.02;
 /// With one that falls by less than this from one step to the next, the system is too old, or too far from the second derivatives.
-const LEAST_PROGRESS: f64 = 0.5;
-const MOST_STEPS: usize = 15;
+const LEAST_PROGRESS: f64 = 0.7;
+const MOST_STEPS: usize = 20;
+/// Trials of a step, each this much shorter than the one before.
+const TRIALS: usize = 4;
+const SHRINK: f64 = 0.25;
 /// Vertices that one task takes.
 const CHUNK: usize = 8192;
 
-/// Walks down from near the minimum. Stops with [`Stop::MaxSteps`] when the rest of the way, or all of it, is for Newton steps.
-pub(super) fn walk(
-    rest: &Rest,
-    hessian: &mut Hessian,
-    learnt: &mut Learnt,
-    uv: &mut Vec<Vec2>,
-    objective: &Objective,
-    options: &DescentOptions,
-    observer: &dyn Observer,
-) -> Result<Descent, DescentError> {
-    let gradient_at = |hessian: &mut Hessian, uv: &[Vec2]| {
-        energy::gradient(objective, rest, hessian, uv).map_err(DescentError::InvalidStart)
-    };
-    let (mut energy, mut gradient) = gradient_at(hessian, uv)?;
-    let mut descent =
-        Descent { steps: 0, iterations: 0, energy_before: energy, energy, stop: Stop::MaxSteps };
-    let (mut is_fresh, mut is_worn) = (false, false);
-    let mut last = f64::INFINITY;
-    while descent.steps < options.max_steps.min(MOST_STEPS) {
-        if let ControlFlow::Break(()) = observer.progress("minimise", 0.0) {
-            return Ok(Descent { stop: Stop::Cancelled, ..descent });
-        }
-        let Some(direction) = learnt.direction(hessian, &gradient) else { break };
-        let decrement = -dot(&gradient, &direction);
-        let least = options.relative_decrease * energy + ENERGY_FLOOR;
-        let is_there = 0.5 * decrement <= MARGIN * least;
-        if !is_there && 0.5 * decrement > FAR * energy {
-            break;
-        }
-        if !is_there && (decrement > LEAST_PROGRESS * last || is_worn) {
-            if is_fresh {
+/// A trial of a step that was good.
+struct Further {
+    uv: Vec<Vec2>,
+    energy: f64,
+    gradient: Vec<f64>,
+    /// 1: the whole direction.
+    step: f64,
+}
+
+/// The problem, and what is kept of the last ones.
+pub(super) struct Tail<'a> {
+    pub(super) rest: &'a Rest,
+    pub(super) hessian: &'a mut Hessian,
+    pub(super) learnt: &'a mut Learnt,
+    pub(super) objective: &'a Objective,
+}
+
+impl Tail<'_> {
+    /// Walks down from near the minimum. Stops with [`Stop::MaxSteps`] when the rest of the way, or all of it, is for Newton steps.
+    pub(super) fn walk(
+        &mut self,
+        uv: &mut Vec<Vec2>,
+        options: &DescentOptions,
+        observer: &dyn Observer,
+    ) -> Result<Descent, DescentError> {
+        let (mut energy, mut gradient) = self.gradient(uv)?;
+        let mut descent =
+            Descent { steps: 0, iterations: 0, energy_before: energy, energy, stop: Stop::MaxSteps };
+        let (mut is_fresh, mut is_worn) = (false, false);
+        let mut last = f64::INFINITY;
+        while descent.steps < options.max_steps.min(MOST_STEPS) {
+            if let ControlFlow::Break(()) = observer.progress("minimise", 0.0) {
+                return Ok(Descent { stop: Stop::Cancelled, ..descent });
+            }
+            let Some(direction) = self.learnt.direction(self.hessian, &gradient) else { break };
+            let decrement = -dot(&gradient, &direction);
+            let least = options.relative_decrease * energy + ENERGY_FLOOR;
+            if decrement >= 0.0 && 0.5 * decrement <= MARGIN * least {
+                if let Some((there, energy)) = self.last_step(uv, &direction, energy, decrement) {
+                    (*uv, descent.energy, descent.steps) = (there, energy, descent.steps + 1);
+                }
+                return Ok(Descent { stop: Stop::Converged, ..descent });
+            }
+            let is_near = decrement > 0.0 && 0.5 * decrement <= FAR * energy;
+            is_worn |= decrement > LEAST_PROGRESS * last;
+            if !is_near || (is_worn && (is_fresh || !self.renew(uv))) {
                 break;
             }
-            energy::derivatives(objective, rest, hessian, uv).map_err(DescentError::InvalidStart)?;
-            hessian.renew(uv)?;
-            (is_fresh, is_worn, last) = (true, false, f64::INFINITY);
-            continue;
-        }
-        last = decrement;
-        let step = (COLLAPSE_FRACTION * first_collapse(rest, uv, &direction)).min(1.0);
-        let next: Vec<Vec2> =
-            uv.par_iter().with_min_len(CHUNK).zip(&direction).map(|(p, d)| p + d * step).collect();
-        let falls_enough = |there: f64| there <= energy - ARMIJO * step * decrement;
-        if is_there {
-            let there = energy::value(objective, rest, &next);
-            if falls_enough(there) {
-                *uv = next;
-                descent.energy = there;
-                descent.steps += 1;
+            if is_worn {
+                (is_fresh, is_worn, last) = (true, false, f64::INFINITY);
+                continue;
             }
-            return Ok(Descent { stop: Stop::Converged, ..descent });
+            last = decrement;
+            let Some(further) = self.further(uv, &direction, energy, decrement)? else {
+                is_worn = true;
+                continue;
+            };
+            let made = direction.into_par_iter().with_min_len(CHUNK).map(|d| d * further.step).collect();
+            let pairs = further.gradient.par_iter().with_min_len(CHUNK).zip(&gradient);
+            self.learnt.learn(made, pairs.map(|(there, here)| there - here).collect());
+            (*uv, energy, gradient) = (further.uv, further.energy, further.gradient);
+            (descent.energy, descent.steps) = (energy, descent.steps + 1);
         }
-        let (energy_there, gradient_there) = gradient_at(hessian, &next)?;
-        if !falls_enough(energy_there) {
-            is_worn = true;
-            continue;
-        }
-        let made = direction.into_par_iter().with_min_len(CHUNK).map(|d| d * step).collect();
-        let change =
-            gradient_there.par_iter().with_min_len(CHUNK).zip(&gradient).map(|(b, a)| b - a).collect();
-        learnt.learn(made, change);
-        *uv = next;
-        (energy, gradient) = (energy_there, gradient_there);
-        descent.energy = energy;
-        descent.steps += 1;
+        Ok(descent)
     }
-    Ok(descent)
+
+    fn gradient(&mut self, uv: &[Vec2]) -> Result<(f64, Vec<f64>), DescentError> {
+        energy::gradient(self.objective, self.rest, self.hessian, uv).map_err(DescentError::InvalidStart)
+    }
+
+    /// Assembles and prepares the system at `uv`, and forgets what was learnt; whether that succeeded.
+    fn renew(&mut self, uv: &[Vec2]) -> bool {
+        *self.learnt = Learnt::default();
+        energy::derivatives(self.objective, self.rest, self.hessian, uv).is_ok()
+            && self.hessian.renew(uv).is_ok()
+    }
+
+    /// Where the whole of a last, short step leads, if it leads down.
+    fn last_step(
+        &self,
+        uv: &[Vec2],
+        direction: &[Vec2],
+        energy: f64,
+        decrement: f64,
+    ) -> Option<(Vec<Vec2>, f64)> {
+        let step = self.longest(uv, direction);
+        let there = moved(uv, direction, step);
+        let energy_there = energy::value(self.objective, self.rest, &there);
+        (energy_there <= energy - ARMIJO * step * decrement).then_some((there, energy_there))
+    }
+
+    /// As far along `direction` as the energy falls enough, of a few trials.
+    fn further(
+        &mut self,
+        uv: &[Vec2],
+        direction: &[Vec2],
+        energy_here: f64,
+        decrement: f64,
+    ) -> Result<Option<Further>, DescentError> {
+        let mut step = self.longest(uv, direction);
+        for _ in 0..TRIALS {
+            let there = moved(uv, direction, step);
+            let (energy, gradient) = self.gradient(&there)?;
+            if energy <= energy_here - ARMIJO * step * decrement {
+                return Ok(Some(Further { uv: there, energy, gradient, step }));
+            }
+            step *= SHRINK;
+        }
+        Ok(None)
+    }
+
+    /// How much of `direction` may be gone.
+    fn longest(&self, uv: &[Vec2], direction: &[Vec2]) -> f64 {
+        (COLLAPSE_FRACTION * first_collapse(self.rest, uv, direction)).min(1.0)
+    }
+}
+
+fn moved(uv: &[Vec2], direction: &[Vec2], step: f64) -> Vec<Vec2> {
+    uv.par_iter().with_min_len(CHUNK).zip(direction).map(|(p, d)| p + d * step).collect()
 }

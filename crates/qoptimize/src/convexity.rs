@@ -11,7 +11,8 @@
 
 use std::collections::HashMap;
 
-use qembed::qmesh::{CornerId, FaceId, QuadMesh, VertexId};
+use qembed::qmesh::{CornerId, FaceId, Id, QuadMesh, VertexId};
+use rayon::prelude::*;
 
 /// The quads that no map can make convex.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -72,24 +73,17 @@ impl Exempt {
     }
 }
 
+/// Faces that one task takes.
+const GRAIN: usize = 4096;
 /// Faces with more corners are not written out as pairs, of which they have as many as the square.
 const MANY_CORNERS: usize = 24;
 
 /// The pairs of vertices that stand in the way, each with the faces that contain it without an edge between. Of the pairs that two faces
 /// with very many corners share only one is named.
 fn shared_pairs(mesh: &QuadMesh) -> Vec<([VertexId; 2], Vec<FaceId>)> {
-    let mut keys: Vec<([VertexId; 2], FaceId)> = Vec::with_capacity(2 * mesh.face_count());
-    for face in mesh.faces().filter(|&face| mesh.degree(face) <= MANY_CORNERS) {
-        let vertices: Vec<VertexId> = mesh.face_vertices(face).collect();
-        let n = vertices.len();
-        for i in 0..n {
-            for j in i + 2..n {
-                if (i, j) != (0, n - 1) {
-                    keys.push((sorted([vertices[i], vertices[j]]), face));
-                }
-            }
-        }
-    }
+    let small = (0..mesh.face_count()).into_par_iter().with_min_len(GRAIN).map(FaceId::from_index);
+    let small = small.filter(|&face| mesh.degree(face) <= MANY_CORNERS);
+    let mut keys: Vec<([VertexId; 2], FaceId)> = small.flat_map_iter(|face| diagonals(mesh, face)).collect();
     let large = LargeFaces::new(mesh);
     if !large.corners.is_empty() {
         let own = keys.clone();
@@ -98,12 +92,20 @@ fn shared_pairs(mesh: &QuadMesh) -> Vec<([VertexId; 2], Vec<FaceId>)> {
         pairs.for_each(|pair| keys.extend(large.with(pair).map(|face| (pair, face))));
         large.among_themselves(&mut keys);
     }
-    keys.sort_unstable();
+    keys.par_sort_unstable();
     keys.dedup();
     keys.chunk_by(|a, b| a.0 == b.0)
         .filter(|group| group.len() > 1 || mesh.neighbors(group[0].0[0]).any(|v| v == group[0].0[1]))
         .map(|group| (group[0].0, group.iter().map(|&(_, face)| face).collect()))
         .collect()
+}
+
+/// The pairs of vertices of a face that are not neighbours in it.
+fn diagonals(mesh: &QuadMesh, face: FaceId) -> impl Iterator<Item = ([VertexId; 2], FaceId)> + '_ {
+    let n = mesh.degree(face);
+    let ends = move |i: usize| (i + 2..n).filter(move |&j| (i, j) != (0, n - 1));
+    let vertex = move |k: usize| mesh.face_vertices(face).nth(k);
+    (0..n).flat_map(move |i| ends(i).filter_map(move |j| Some((sorted([vertex(i)?, vertex(j)?]), face))))
 }
 
 fn sorted([a, b]: [VertexId; 2]) -> [VertexId; 2] {

@@ -14,6 +14,8 @@ pub(crate) enum Phase {
     Writing = 2,
     /// The process is about to end: no work begins any more.
     Ending = 3,
+    /// The files are in place, only the report is missing: the first signal comes too late, a second one ends the process.
+    Placed = 4,
 }
 
 /// The request to stop, shared between the signal handler and the work.
@@ -51,11 +53,13 @@ impl Interrupt {
         }
     }
 
-    /// Asks to stop. `true` says that nothing needs to be waited for: the process may exit now.
+    /// Asks to stop. `true` says that nothing needs to be waited for: the process has to exit now, and no work begins any more.
     pub fn request(&self) -> bool {
         let again = self.requested.swap(true, SeqCst);
-        let phase = self.phase.load(SeqCst);
-        phase == Phase::Free as u8 || (again && phase == Phase::Watched as u8)
+        let impatient = [Phase::Watched as u8, Phase::Placed as u8];
+        let may_end = |phase| phase == Phase::Free as u8 || (again && impatient.contains(&phase));
+        let ending = |phase| may_end(phase).then_some(Phase::Ending as u8);
+        self.phase.fetch_update(SeqCst, SeqCst, ending).is_ok()
     }
 
     /// Ends the work that is observed but has not looked yet: `true` says that the process may exit now, and that nothing will be
@@ -80,7 +84,13 @@ impl Interrupt {
         self.phase.fetch_update(SeqCst, SeqCst, unless_ending).ok()
     }
 
-    /// Runs `work` in `phase`.
+    /// The last moment at which files can be kept from their places: `false` says that somebody asked to stop, and that they are
+    /// not to be put there. After `true` the command comes to its end.
+    pub(crate) fn may_place(&self) -> bool {
+        !self.is_requested() && self.enter(Phase::Placed).is_some()
+    }
+
+    /// Runs `work` in `phase`; what has been placed meanwhile stays so.
     pub(crate) fn during<T>(&self, phase: Phase, work: impl FnOnce() -> T) -> T {
         let before = loop {
             match self.enter(phase) {
@@ -112,6 +122,21 @@ mod tests {
             assert!(!interrupt.end_what_is_observed(), "not even the impatient");
         });
         assert!(interrupt.is_requested());
+    }
+
+    /// A file in its place cannot be called back: the command says how it went, unless nobody wants to hear it.
+    #[test]
+    fn what_is_placed_is_reported() {
+        let interrupt = Interrupt::new();
+        interrupt.during(Phase::Writing, || assert!(interrupt.may_place()));
+        assert!(!interrupt.request(), "too late");
+        assert!(!interrupt.end_what_is_observed());
+        assert!(interrupt.request(), "impatient");
+        let interrupt = Interrupt::new();
+        interrupt.during(Phase::Writing, || {
+            interrupt.request();
+            assert!(!interrupt.may_place());
+        });
     }
 
     /// Once the end of observed work is decided, no file is begun any more.

@@ -1,11 +1,13 @@
 //! Files that are replaced as a whole or not at all.
 //!
-//! A new file is written beside its target, flushed to the disk, and renamed over it.
+//! A new file is written beside its target, flushed to the disk, and renamed over it; several, once all are complete.
 
 use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -81,24 +83,86 @@ impl Target {
         interrupt: &Interrupt,
         content: impl FnOnce(&mut dyn Write) -> io::Result<T>,
     ) -> Result<T, Failure> {
-        match self {
-            Self::Stdout => {
-                let mut writer = BufWriter::with_capacity(BUFFER, stdout);
-                let result = content(&mut writer).and_then(|value| writer.flush().map(|()| value));
-                // Whatever is left in the buffer has nowhere to go, and must not be tried again.
-                let _ = writer.into_parts();
-                result.map_err(|error| {
+        together(stdout, interrupt, |outputs| outputs.write(self, content))
+    }
+}
+
+/// Runs `work`, which writes the outputs of a command. Its files are put in their places together, once all are complete; after a
+/// failure or an interruption none is.
+pub(crate) fn together<T>(
+    stdout: &mut dyn Write,
+    interrupt: &Interrupt,
+    work: impl FnOnce(&mut Outputs<'_>) -> Result<T, Failure>,
+) -> Result<T, Failure> {
+    interrupt.during(Phase::Writing, || {
+        let mut outputs = Outputs { stdout, interrupt, complete: Vec::new() };
+        let value = work(&mut outputs)?;
+        outputs.place()?;
+        Ok(value)
+    })
+}
+
+/// What a command writes. Standard output goes first: a reader that is slow can be left while there is no file to clean up.
+pub(crate) struct Outputs<'a> {
+    stdout: &'a mut dyn Write,
+    interrupt: &'a Interrupt,
+    /// Files beside their targets.
+    complete: Vec<Complete>,
+}
+
+struct Complete {
+    file: NamedTempFile,
+    target: PathBuf,
+    /// As messages call it.
+    name: PathBuf,
+}
+
+impl Outputs<'_> {
+    /// Hands `content` a writer for `target`.
+    pub(crate) fn write<T>(
+        &mut self,
+        target: &Target,
+        content: impl FnOnce(&mut dyn Write) -> io::Result<T>,
+    ) -> Result<T, Failure> {
+        let path = match target {
+            Target::File(path) if is_special(path) => {
+                // A device or a pipe cannot be renamed over.
+                let open = || File::options().write(true).open(path);
+                return self
+                    .stream(|_| open().and_then(|file| passed_on(file, content)))
+                    .map_err(|e| cannot(path, &e));
+            }
+            Target::File(path) => path,
+            Target::Stdout => {
+                return self.stream(|stdout| passed_on(stdout, content)).map_err(|error| {
                     Failure::new(Exit::Output, "standard output could not be written").cause(&error)
-                })
+                });
             }
-            Self::File(path) => {
-                match interrupt.during(Phase::Writing, || replace(path, interrupt, content)) {
-                    Ok(Some(value)) => Ok(value),
-                    Ok(None) => Err(Failure::interrupted()),
-                    Err(error) => Err(cannot(path, &error)),
-                }
-            }
+        };
+        let (file, value) = beside(path, content).map_err(|error| cannot(path, &error))?;
+        self.complete.push(file);
+        Ok(value)
+    }
+
+    /// Whoever reads may be slow, or wait for ever: the process may end meanwhile, if it leaves nothing behind.
+    fn stream<T>(&mut self, work: impl FnOnce(&mut dyn Write) -> T) -> T {
+        if !self.complete.is_empty() {
+            return work(self.stdout);
         }
+        self.interrupt.during(Phase::Free, || work(self.stdout))
+    }
+
+    fn place(self) -> Result<(), Failure> {
+        if self.complete.is_empty() {
+            return Ok(());
+        }
+        if !self.interrupt.may_place() {
+            return Err(Failure::interrupted());
+        }
+        for Complete { file, target, name } in self.complete {
+            file.persist(&target).map_err(|error| cannot(&name, &error.error))?;
+        }
+        Ok(())
     }
 }
 
@@ -106,21 +170,25 @@ fn cannot(path: &Path, error: &io::Error) -> Failure {
     Failure::new(Exit::Output, format!("{} could not be written", path.display())).cause(error)
 }
 
-/// `None`: interrupted, and nothing has changed.
-fn replace<T>(
+fn is_special(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|found| !found.is_file())
+}
+
+fn passed_on<T>(writer: impl Write, content: impl FnOnce(&mut dyn Write) -> io::Result<T>) -> io::Result<T> {
+    let mut writer = BufWriter::with_capacity(BUFFER, writer);
+    let result = content(&mut writer).and_then(|value| writer.flush().map(|()| value));
+    // Whatever is left in the buffer has nowhere to go, and must not be tried again.
+    let _ = writer.into_parts();
+    result
+}
+
+/// A file beside `path`, complete and on the disk.
+fn beside<T>(
     path: &Path,
-    interrupt: &Interrupt,
     content: impl FnOnce(&mut dyn Write) -> io::Result<T>,
-) -> io::Result<Option<T>> {
+) -> io::Result<(Complete, T)> {
     let existing = fs::metadata(path).ok();
-    if existing.as_ref().is_some_and(|found| !found.is_file()) {
-        // A device or a pipe cannot be renamed over.
-        let mut writer = BufWriter::with_capacity(BUFFER, File::options().write(true).open(path)?);
-        let value = content(&mut writer)?;
-        return writer.flush().map(|()| Some(value));
-    }
     let target = real_target(path)?;
-    let folder = folder_of(&target);
     let mut temporary = tempfile::Builder::new();
     temporary.prefix(".qparam-").suffix(".part");
     #[cfg(unix)]
@@ -128,20 +196,14 @@ fn replace<T>(
         // What any new file gets; the umask takes its part from it.
         temporary.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     }
-    let file = temporary.tempfile_in(&folder)?;
-    let mut writer = BufWriter::with_capacity(BUFFER, file);
-    let value = content(&mut writer)?;
-    let file = writer.into_inner().map_err(io::IntoInnerError::into_error)?;
+    let mut file = temporary.tempfile_in(folder_of(&target))?;
+    let value = passed_on(file.as_file_mut(), content)?;
     if let Some(existing) = existing {
         // Another owner's permissions may be refused; the content matters more.
         let _ = file.as_file().set_permissions(existing.permissions());
     }
     file.as_file().sync_all()?;
-    if interrupt.is_requested() {
-        return Ok(None);
-    }
-    file.persist(&target).map_err(|error| error.error)?;
-    Ok(Some(value))
+    Ok((Complete { file, target, name: path.to_owned() }, value))
 }
 
 /// Behind a symbolic link, the file itself is replaced, and the link stays; also where it dangles.
@@ -170,7 +232,7 @@ mod tests {
     use std::io;
     use std::path::Path;
 
-    use super::{Interrupt, Target};
+    use super::{Interrupt, Target, together};
     use crate::exit::Exit;
 
     fn write(path: &Path, text: &str) -> Result<(), super::Failure> {
@@ -212,6 +274,31 @@ mod tests {
         });
         assert_eq!(result.unwrap_err().class, Exit::Interrupted);
         assert!(names(folder.path()).is_empty());
+    }
+
+    /// Two files: neither where the second fails or a signal comes in between, else both.
+    #[test]
+    fn several_files_are_placed_together() {
+        let folder = tempfile::tempdir().unwrap();
+        let [a, b] = ["a", "b"].map(|name| Target::new(&folder.path().join(name)));
+        let both = |interrupt: &Interrupt, between: &dyn Fn() -> io::Result<()>| {
+            together(&mut io::sink(), interrupt, |outputs| {
+                outputs.write(&a, |w| w.write_all(b"a"))?;
+                outputs.write(&b, |w| w.write_all(b"b").and_then(|()| between()))
+            })
+        };
+        let failure = both(&Interrupt::new(), &|| Err(io::Error::other("disk full"))).unwrap_err();
+        assert_eq!(failure.class, Exit::Output);
+        assert!(names(folder.path()).is_empty());
+        let interrupt = Interrupt::new();
+        let failure = both(&interrupt, &|| {
+            interrupt.request();
+            Ok(())
+        });
+        assert_eq!(failure.unwrap_err().class, Exit::Interrupted);
+        assert!(names(folder.path()).is_empty());
+        both(&Interrupt::new(), &|| Ok(())).unwrap();
+        assert_eq!(names(folder.path()), ["a", "b"]);
     }
 
     #[cfg(unix)]

@@ -9,7 +9,7 @@ use qoptimize::atlas::{kept_seams, open, unwrap_charts};
 use qoptimize::qembed::BoundaryShape;
 use qoptimize::qmesh::charts::cut;
 use qoptimize::qmesh::obj::{UvWriteSummary, write_obj};
-use qoptimize::qmesh::{Chart, QuadMesh, Repairs};
+use qoptimize::qmesh::{Chart, Polygons, QuadMesh, Repairs};
 use qoptimize::qsimplify::{SimplifyError, simplify};
 use qoptimize::{Atlas, AtlasOptions, Certificate, Method, Options, RunRecord};
 
@@ -23,7 +23,7 @@ use crate::interrupt::Phase;
 use crate::islands::{refuse_repairs, trades};
 use crate::json_text;
 use crate::keep;
-use crate::output::Target;
+use crate::output::{Outputs, Target, together};
 use crate::page_report::{self, Source};
 use crate::pins;
 use crate::progress::{StageTime, Watch};
@@ -34,7 +34,7 @@ use crate::seams;
 use crate::streams::Streams;
 use crate::threads;
 use crate::translate::{no_atlas, refused};
-use crate::worst;
+use crate::worst::{self, WorstReport};
 
 /// What a run has gathered before it computes.
 struct Job<'a> {
@@ -90,19 +90,14 @@ pub(crate) fn run(arguments: &UnwrapArgs, typed: &[String], io: &mut Streams<'_>
     let (result, stages) = timed(&mut timings.parameterize, || job.compute(io))?;
     timings.stages = stages;
     let html = page.as_ref().map(|_| job.page(&result, io)).transpose()?;
+    let worst = job.worst_faces(&result)?;
     let written = timed(&mut timings.write, || {
-        if let Some(target) = &simplified {
-            job.write_simplified(target, io)?;
-        }
-        if let (Some(target), Some(html)) = (&page, &html) {
-            target.write(io.stdout, io.interrupt, |writer| writer.write_all(html.as_bytes()))?;
-        }
-        job.target.write(io.stdout, io.interrupt, |mut writer| {
-            job.input.document.write_with_uv(&mut writer, &result.uv)
-        })
+        let simplified = simplified.as_ref().map(|target| Ok((target, job.simplified(io)?))).transpose()?;
+        let page = page.as_ref().zip(html.as_deref());
+        together(io.stdout, io.interrupt, |outputs| job.write(outputs, &result, simplified, page))
     })?;
     timings.total = start.elapsed().as_secs_f64();
-    job.report(&result, written, timings, io)
+    job.report(&result, written, worst, timings, io)
 }
 
 /// The mesh, where there is but one: places are given in the plane of one island.
@@ -316,7 +311,7 @@ impl Job<'_> {
         page_report::html(&source, io)
     }
 
-    fn write_simplified(&self, target: &Target, io: &mut Streams<'_>) -> Result<(), Failure> {
+    fn simplified(&self, io: &Streams<'_>) -> Result<Polygons, Failure> {
         let watch = Watch::new(io.interrupt, false);
         let mesh = match &self.charts[..] {
             [chart] => chart.mesh.clone(),
@@ -328,8 +323,34 @@ impl Job<'_> {
             SimplifyError::Cancelled => Failure::interrupted(),
             other => Failure::new(Exit::Computation, "the mesh could not be simplified").cause(&other),
         })?;
-        let polygons = simplified.polygons(&mesh);
-        target.write(io.stdout, io.interrupt, |mut writer| write_obj(&mut writer, polygons.view(), None))
+        Ok(simplified.polygons(&mesh))
+    }
+
+    fn worst_faces(&self, result: &Atlas) -> Result<Vec<WorstReport>, Failure> {
+        let find = || worst::find(&self.input, &self.charts, result, &self.options, self.arguments.worst);
+        Ok(threads::with(self.arguments.map.threads, find)?.unwrap_or_default())
+    }
+
+    /// Everything that is asked for, standard output first.
+    fn write(
+        &self,
+        outputs: &mut Outputs<'_>,
+        result: &Atlas,
+        simplified: Option<(&Target, Polygons)>,
+        page: Option<(&Target, &str)>,
+    ) -> Result<UvWriteSummary, Failure> {
+        let uv = |outputs: &mut Outputs<'_>| {
+            outputs
+                .write(&self.target, |mut writer| self.input.document.write_with_uv(&mut writer, &result.uv))
+        };
+        let first = (self.target == Target::Stdout).then(|| uv(outputs)).transpose()?;
+        if let Some((target, mesh)) = simplified {
+            outputs.write(target, |mut writer| write_obj(&mut writer, mesh.view(), None))?;
+        }
+        if let Some((target, html)) = page {
+            outputs.write(target, |writer| writer.write_all(html.as_bytes()))?;
+        }
+        first.map_or_else(|| uv(outputs), Ok)
     }
 
     /// Whether `--max-stretch` could be given, and is not.
@@ -343,6 +364,7 @@ impl Job<'_> {
         &self,
         result: &Atlas,
         uv_lines: UvWriteSummary,
+        worst_faces: Vec<WorstReport>,
         timings: Timings,
         io: &mut Streams<'_>,
     ) -> Result<Exit, Failure> {
@@ -358,8 +380,7 @@ impl Job<'_> {
             stopped_by_time: result.islands.iter().any(|island| island.ended_by_time),
             certificate,
             distortion: &result.distortion,
-            worst_faces: worst::find(&self.input, &self.charts, result, &self.options, arguments.worst)
-                .unwrap_or_default(),
+            worst_faces,
             options: options_json(&self.options.map, arguments.map.boundary_uv.as_deref()),
             record: record(result),
             repairs: &result.repairs,

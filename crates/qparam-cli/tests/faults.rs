@@ -47,6 +47,33 @@ fn an_interruption_at_any_moment_leaves_all_or_nothing() {
     }
 }
 
+/// With a page and a simplified mesh beside the UVs: three files or none.
+#[test]
+fn an_interruption_leaves_all_files_or_none() {
+    let mut stops = 0;
+    // The first looks are those of the maps; what comes last is what matters here.
+    for looks in (0..).step_by(7) {
+        let folder = Folder::new();
+        folder.write("in.obj", hill(4));
+        let [input, output, page, simplified] = ["in.obj", "out.obj", "page.html", "simplified.obj"]
+            .map(|file| folder.path(file).display().to_string());
+        let arguments = [
+            &["unwrap", "--method=paper", &input, "-o", &output][..],
+            &["--report", &page, "--report-q", "0.5", "--simplified", &simplified],
+        ]
+        .concat();
+        let run = interrupted(&arguments, b"", &Interrupt::after_looks(looks));
+        if run.exit != Exit::Interrupted {
+            assert!([Exit::Done, Exit::Invalid].contains(&run.exit), "{}", run.stderr);
+            assert_eq!(folder.names(), ["in.obj", "out.obj", "page.html", "simplified.obj"]);
+            break;
+        }
+        assert_eq!(folder.names(), ["in.obj"], "look {looks}");
+        stops += 1;
+    }
+    assert!(stops > 3, "only {stops} interruptions");
+}
+
 /// A limit that is over before the work begins: code 9, and no file; of two islands there are the convex starts, code 8, and the report
 /// says so. A limit that is never reached changes nothing.
 #[test]

@@ -25,9 +25,19 @@ pub fn corner_areas(mesh: &QuadMesh) -> CornerData<f64> {
 pub fn face_area(mesh: &QuadMesh, face: FaceId) -> f64 {
     match mesh.degree(face) {
         3 => mesh.face_corners(face).next().map_or(0.0, |corner| corner_area(mesh, corner)),
-        4 => 0.5 * mesh.face_corners(face).map(|corner| corner_area(mesh, corner)).sum::<f64>(),
+        4 => 0.5 * quad_corner_areas(mesh, face).into_iter().sum::<f64>(),
         _ => vector_area(mesh, face),
     }
+}
+
+/// The corner areas of a quad; each vertex is looked up once.
+fn quad_corner_areas(mesh: &QuadMesh, face: FaceId) -> [f64; 4] {
+    let mut vertices = mesh.face_vertices(face).map(|vertex| mesh.position(vertex));
+    let at: [Vec3; 4] = std::array::from_fn(|_| vertices.next().unwrap_or_default());
+    std::array::from_fn(|here| {
+        let [next, previous] = [1, 3].map(|step| at[(here + step) % 4] - at[here]);
+        triangle_area(next, previous)
+    })
 }
 
 /// All face areas.

@@ -13,7 +13,7 @@ pub(crate) fn angle_between(a: Vec3, b: Vec3) -> f64 {
 /// The area of the triangle with the sides `ab` and `ac` at its corner A.
 #[must_use]
 pub fn triangle_area(ab: Vec3, ac: Vec3) -> f64 {
-    let (scale_b, scale_c) = (ab.amax(), ac.amax());
+    let (scale_b, scale_c) = (largest(ab), largest(ac));
     0.5 * unscaled(ab).cross(&unscaled(ac)).norm() * scale_b * scale_c
 }
 
@@ -31,7 +31,7 @@ pub fn triangle_area(ab: Vec3, ac: Vec3) -> f64 {
 /// | obtuse at C | `│AC│² tan A / 8` |
 #[must_use]
 pub fn voronoi_cell_area(ab: Vec3, ac: Vec3) -> f64 {
-    let scale = ab.amax().max(ac.amax());
+    let scale = largest(ab).max(largest(ac));
     if scale <= 0.0 {
         return 0.0;
     }
@@ -61,8 +61,13 @@ fn unit_cell_area(ab: Vec3, ac: Vec3) -> f64 {
     cell.max(0.0).min(area)
 }
 
+/// The largest coordinate, without its sign.
+fn largest(v: Vec3) -> f64 {
+    v.x.abs().max(v.y.abs()).max(v.z.abs())
+}
+
 /// `v` with its largest coordinate brought to one; zero stays zero.
 fn unscaled(v: Vec3) -> Vec3 {
-    let scale = v.amax();
+    let scale = largest(v);
     if scale > 0.0 { v / scale } else { v }
 }

@@ -40,6 +40,18 @@ impl Exempt {
         exempt
     }
 
+    /// Whether [`find`](Self::find) finds the quad `face`, from its surroundings alone.
+    #[must_use]
+    pub fn contains(mesh: &QuadMesh, face: FaceId) -> bool {
+        let mut pairs = diagonals(mesh, face).map(|(pair, _)| pair);
+        mesh.degree(face) == 4
+            && pairs.any(|[a, b]| {
+                let mut others = mesh.vertex_corners(a).map(|corner| mesh.face(corner));
+                others.any(|other| other != face && is_diagonal(mesh, other, [a, b]))
+                    || mesh.neighbors(a).any(|vertex| vertex == b)
+            })
+    }
+
     /// The vertices whose corners certify `face`, when it is exempt.
     #[must_use]
     pub fn pair_of(&self, face: FaceId) -> Option<[VertexId; 2]> {
@@ -106,6 +118,15 @@ fn diagonals(mesh: &QuadMesh, face: FaceId) -> impl Iterator<Item = ([VertexId; 
     let ends = move |i: usize| (i + 2..n).filter(move |&j| (i, j) != (0, n - 1));
     let vertex = move |k: usize| mesh.face_vertices(face).nth(k);
     (0..n).flat_map(move |i| ends(i).filter_map(move |j| Some((sorted([vertex(i)?, vertex(j)?]), face))))
+}
+
+/// Whether both are vertices of `face`, without an edge of it between.
+fn is_diagonal(mesh: &QuadMesh, face: FaceId, [a, b]: [VertexId; 2]) -> bool {
+    let place = |wanted| mesh.face_vertices(face).position(|vertex| vertex == wanted);
+    place(a).zip(place(b)).is_some_and(|(i, j)| {
+        let apart = i.abs_diff(j);
+        apart > 1 && apart + 1 < mesh.degree(face)
+    })
 }
 
 fn sorted([a, b]: [VertexId; 2]) -> [VertexId; 2] {

@@ -29,7 +29,7 @@ mod tally;
 pub use benchmark::Benchmark;
 pub use error::MeasureError;
 pub(crate) use error::{check, check_arrays};
-pub use faces::{FaceMeasures, measure_faces};
+pub use faces::{FaceMeasure, FaceMeasures, measure_faces, measure_worst_faces};
 use qembed::qmesh::{PolygonView, Vec2};
 use rayon::prelude::*;
 
@@ -162,9 +162,7 @@ pub(crate) fn measure_islands(
     if areas.plane < f64::MIN_POSITIVE || !(frame.scale * frame.scale).is_normal() {
         return Err(MeasureError::NoArea);
     }
-    let mut tally = Tally::default();
-    let parts = by_runs(polygons.face_count(), |run| Tally::of(&frame, run, &areas.faces));
-    parts.into_iter().for_each(|part| tally.append(part));
+    let tally = Tally::total(by_runs(polygons.face_count(), |run| Tally::of(&frame, run, &areas.faces)));
     let mirrored = mirrored.iter().filter(|&&m| m).count();
     Ok(summary(&surface, tally, islands, mirrored, &outline, &crossings, benchmark))
 }
@@ -178,10 +176,7 @@ fn outline(surface: &Surface<'_>, islands: &Islands) -> (Outline, Crossings) {
 }
 
 fn total_areas(surface: &Surface<'_>) -> Areas {
-    let mut areas = Areas::default();
-    let parts = by_runs(surface.polygons.face_count(), |run| Areas::of(surface, run));
-    parts.into_iter().for_each(|part| areas.append(part));
-    areas
+    Areas::total(by_runs(surface.polygons.face_count(), |run| Areas::of(surface, run)))
 }
 
 fn mirrored_islands(islands: &Islands, areas: &Areas) -> Vec<bool> {

@@ -55,7 +55,10 @@ pub use direct::{
     AngleTerm, BoundaryRepair, Continuation, Descent, DirectOptions, DirectReport, ScaffoldEnd, StartMethod,
     Stop, SymmetryReport,
 };
-pub use distortion::{Benchmark, Distortion, FaceMeasures, MeasureError, measure, measure_faces};
+pub use distortion::{
+    Benchmark, Distortion, FaceMeasure, FaceMeasures, MeasureError, measure, measure_faces,
+    measure_worst_faces,
+};
 pub use error::ParameterizeError;
 pub use overlap::{MoveOrder, OverlapOptions, OverlapReport, remove_overlaps};
 pub use parameterize::{Method, Options, Parameterization, RunRecord, parameterize, parameterize_from};

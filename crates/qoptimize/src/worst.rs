@@ -6,7 +6,7 @@ use qembed::qcurv::corner_angle;
 use qembed::qmesh::{CornerData, FaceId, Id, QuadMesh, Vec2, Vec3, VertexId};
 
 use crate::direct::rest::{concave_corners, corner_normals};
-use crate::distortion::{FaceMeasures, MeasureError, measure_faces};
+use crate::distortion::{FaceMeasure, FaceMeasures, MeasureError, measure_worst_faces};
 
 /// How far around a face its causes are looked for, in edges.
 const REACH: usize = 2;
@@ -97,16 +97,19 @@ pub fn worst_faces(
     circumstances: &Circumstances<'_>,
     count: usize,
 ) -> Result<Vec<WorstFace>, MeasureError> {
-    let measures = measure_faces(mesh.view(), uv)?;
-    let explain = |face: usize| WorstFace {
-        face: FaceId::from_index(face),
-        place: center(mesh, FaceId::from_index(face)),
-        symmetric_dirichlet: Some(measures.symmetric_dirichlet[face]).filter(|energy| energy.is_finite()),
-        angle_degrees: measures.angle_degrees[face],
-        area_ratio: measures.area_ratio[face],
-        causes: causes(mesh, FaceId::from_index(face), circumstances),
+    let worst = measure_worst_faces(mesh.view(), uv, count)?;
+    let explain = |(index, measure): (usize, FaceMeasure)| {
+        let face = FaceId::from_index(index);
+        WorstFace {
+            face,
+            place: center(mesh, face),
+            symmetric_dirichlet: Some(measure.symmetric_dirichlet).filter(|energy| energy.is_finite()),
+            angle_degrees: measure.angle_degrees,
+            area_ratio: measure.area_ratio,
+            causes: causes(mesh, face, circumstances),
+        }
     };
-    Ok(rank_faces(&measures, count).into_iter().map(explain).collect())
+    Ok(worst.into_iter().map(explain).collect())
 }
 
 /// The order in which [`worst_faces`] names faces, for polygons of any kind.

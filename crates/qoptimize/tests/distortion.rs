@@ -4,7 +4,7 @@ mod common;
 
 use common::{Measures, Random, random_map, slow_measures};
 use proptest::prelude::*;
-use qoptimize::distortion::{Distortion, MeasureError, measure, measure_faces};
+use qoptimize::distortion::{Distortion, MeasureError, measure, measure_faces, measure_worst_faces};
 use qoptimize::qmesh::nalgebra::Rotation2;
 use qoptimize::qmesh::{Polygons, QuadMesh, Vec2, Vec3, shapes};
 
@@ -351,6 +351,39 @@ fn same_bits_for_any_number_of_threads() {
         pool.install(|| format!("{:?}", measure(mesh.view(), &uv).unwrap()))
     };
     assert_eq!(on(1), on(3));
+}
+
+/// The worst faces are those of all faces measured and sorted: with a flip, mirrored, and with triangles among the quads.
+#[test]
+fn the_worst_faces_are_the_worst_of_all() {
+    for (mesh, flip, mirror) in [
+        (shapes::bump(6, 0.7), false, 1.0),
+        (shapes::bump(7, 0.7), true, 1.0),
+        (shapes::bump(7, 0.7), true, -1.0),
+        (shapes::finger(2, 10), false, -1.0),
+    ] {
+        let mut uv = corner_uv(&mesh, |p| {
+            Vec2::new(mirror * (p.x + 0.2 * p.y * p.z), p.y - 0.1 * p.x * p.x + 0.3 * p.z)
+        });
+        if flip {
+            uv[0] = uv[2] * 1.5 - uv[0] * 0.5;
+        }
+        let all = measure_faces(mesh.view(), &uv).unwrap();
+        let order = qoptimize::worst::rank_faces(&all, mesh.face_count());
+        for count in [0, 3, mesh.face_count() + 1] {
+            let worst = measure_worst_faces(mesh.view(), &uv, count).unwrap();
+            assert_eq!(worst.len(), count.min(mesh.face_count()));
+            for (&(face, measure), &expected) in worst.iter().zip(&order) {
+                // Rounding may exchange faces that are alike.
+                let [a, b] = [face, expected].map(|face| all.symmetric_dirichlet[face]);
+                assert!(a == b || (a / b - 1.0).abs() < 1e-6, "{face} {expected}: {a} {b}");
+                assert_eq!(measure.symmetric_dirichlet, all.symmetric_dirichlet[face]);
+                assert_eq!(measure.angle_degrees, all.angle_degrees[face]);
+                assert_eq!(measure.area_ratio, all.area_ratio[face]);
+                assert_eq!(measure.flipped, all.flipped[face]);
+            }
+        }
+    }
 }
 
 /// What faces have adds up to what the whole map has: areas to equal areas, the largest ratio of stretches to the largest

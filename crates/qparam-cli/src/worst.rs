@@ -1,10 +1,10 @@
 //! The worst faces of a map, in the numbers of the file and in words.
 
-use std::collections::HashMap;
-
 use qoptimize::qmesh::{Chart, FaceId, Id, VertexId};
-use qoptimize::worst::{causes, center, rank_faces};
-use qoptimize::{Atlas, AtlasOptions, Cause, Circumstances, Exempt, MeasureError, Stop, measure_faces};
+use qoptimize::worst::{causes, center};
+use qoptimize::{
+    Atlas, AtlasOptions, Cause, Circumstances, Exempt, FaceMeasure, MeasureError, Stop, measure_worst_faces,
+};
 use serde::Serialize;
 
 use crate::input::Input;
@@ -50,43 +50,40 @@ pub(crate) fn find(
     if count == 0 {
         return Ok(Vec::new());
     }
-    let (polygons, uv) = atlas.oriented(input.document.view());
-    let measures = measure_faces(polygons.view(), &uv)?;
-    let mut exempt: HashMap<u32, Vec<FaceId>> = HashMap::new();
-    let explain = |index: usize| {
+    let polygons = input.document.view();
+    let worst = if atlas.turned_faces.is_empty() {
+        measure_worst_faces(polygons, &atlas.uv, count)?
+    } else {
+        let (polygons, uv) = atlas.oriented(polygons);
+        measure_worst_faces(polygons.view(), &uv, count)?
+    };
+    let explain = |(index, measure): (usize, FaceMeasure)| {
         let face = index as u32;
         let (chart, place) = charts
             .iter()
             .find_map(|chart| Some((chart, chart.faces.binary_search(&face).ok()?)))
             .map(|(chart, place)| (chart, FaceId::from_index(place)))?;
-        let exempt = exempt.entry(chart.faces[0]).or_insert_with(|| Exempt::find(&chart.mesh).faces());
         Some(WorstReport {
             face: index + 1,
             place: center(&chart.mesh, place).into(),
-            symmetric_dirichlet: Some(measures.symmetric_dirichlet[index])
-                .filter(|energy| energy.is_finite()),
-            angle_degrees: measures.angle_degrees[index],
-            area_ratio: measures.area_ratio[index],
-            causes: explained(chart, place, exempt, atlas, options),
+            symmetric_dirichlet: Some(measure.symmetric_dirichlet).filter(|energy| energy.is_finite()),
+            angle_degrees: measure.angle_degrees,
+            area_ratio: measure.area_ratio,
+            causes: explained(chart, place, atlas, options),
         })
     };
-    Ok(rank_faces(&measures, count).into_iter().filter_map(explain).collect())
+    Ok(worst.into_iter().filter_map(explain).collect())
 }
 
-fn explained(
-    chart: &Chart,
-    face: FaceId,
-    exempt: &[FaceId],
-    atlas: &Atlas,
-    options: &AtlasOptions,
-) -> Vec<CauseReport> {
+fn explained(chart: &Chart, face: FaceId, atlas: &Atlas, options: &AtlasOptions) -> Vec<CauseReport> {
     let mesh = &chart.mesh;
     // Islands that were cut further have other records, and begin elsewhere.
     let island = atlas.islands.iter().find(|island| chart.faces.first() == Some(&island.first_face));
     let direct = island.and_then(|island| island.record.direct.as_ref());
     let pinned: Vec<VertexId> = options.map.pins.iter().map(|pin| pin.0).collect();
+    let exempt = Exempt::contains(mesh, face).then_some(face);
     let circumstances = Circumstances {
-        exempt,
+        exempt: exempt.as_slice(),
         pinned: &pinned,
         held_boundary: !options.map.is_boundary_free()
             || direct.is_some_and(|direct| direct.boundary_repair.is_some()),

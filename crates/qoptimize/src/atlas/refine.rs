@@ -7,7 +7,7 @@ use qembed::qmesh::{EdgeId, Observer, QuadMesh, VertexData, VertexId};
 use rayon::prelude::*;
 
 use super::solve::{Solved, among_others, of_many};
-use super::stretch::{quantile, stretch};
+use super::stretch::stretch;
 use super::{AtlasError, AtlasOptions, tell};
 use crate::direct::Continuation;
 use crate::parameterize::Options;
@@ -84,7 +84,7 @@ fn refine_one(
     map: &Options,
     observer: &dyn Observer,
 ) -> Result<Solved, AtlasError> {
-    let mut value = quantile(&island.chart.mesh, &island.uv);
+    let mut value = island.stretch();
     if value <= bound {
         return Ok(island);
     }
@@ -136,7 +136,7 @@ fn best_cut(
                 return Ok(None);
             }
             let next = among_others(pieces.remove(0), &mut Continuation::default(), map, &Within(observer))?;
-            let stretch = quantile(&next.chart.mesh, &next.uv);
+            let stretch = next.stretch();
             let length = edges.iter().map(|&edge| mesh.edge_length(edge)).sum();
             Ok(Some((Cut { edges: edges.len(), length, stretch }, next)))
         })

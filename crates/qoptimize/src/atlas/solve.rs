@@ -171,16 +171,22 @@ impl Solved {
         self.out_of_time || descent == Some(Stop::Cancelled) || refinement == Some(RefinementEnd::OutOfTime)
     }
 
+    /// What 99 % of its area stays below: see [`stretch`](super::stretch()).
+    pub(super) fn stretch(&self) -> f64 {
+        stretch::quantile(&self.chart.mesh, &self.uv, measures::areas(&self.chart.mesh, &self.uv))
+    }
+
     pub(super) fn island(self) -> (Island, Chart) {
         let mesh = &self.chart.mesh;
-        let [area, uv_area] = measures::areas(mesh, &self.uv);
+        let areas = measures::areas(mesh, &self.uv);
+        let [area, uv_area] = areas;
         let island = Island {
             first_face: self.chart.faces.first().copied().unwrap_or(0),
             faces: mesh.face_count(),
             boundary_loops: mesh.boundary_loops().len(),
             area,
             uv_area,
-            stretch: stretch::quantile(mesh, &self.uv),
+            stretch: stretch::quantile(mesh, &self.uv, areas),
             symmetric_dirichlet: self.distortion.as_ref().and_then(|found| found.symmetric_dirichlet),
             flipped_corners: self.distortion.as_ref().map_or(0, |found| found.flipped_corners),
             boundary_crossings: self.distortion.as_ref().map_or(0, |found| found.boundary_crossings),

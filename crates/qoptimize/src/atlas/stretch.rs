@@ -3,6 +3,8 @@
 use qembed::qmesh::{CornerId, Id, QuadMesh, Vec2, VertexId};
 use rayon::prelude::*;
 
+use super::measures::areas;
+
 /// The share of the area that may be stretched more.
 const TAIL: f64 = 0.01;
 
@@ -25,7 +27,7 @@ pub struct StretchMeasure {
 /// triangles that are not positive count as infinite.
 #[must_use]
 pub fn stretch(mesh: &QuadMesh, uv: &[Vec2]) -> StretchMeasure {
-    let mut values = corner_stretches(mesh, uv);
+    let mut values = corner_stretches(mesh, uv, areas(mesh, uv));
     let mut around = mesh.vertex_data(|_| Around::default());
     for (corner, &(stretch, area)) in mesh.corners().zip(&values).filter(|(_, value)| value.1 > 0.0) {
         let here = &mut around[mesh.vertex(corner)];
@@ -52,14 +54,13 @@ pub fn stretch(mesh: &QuadMesh, uv: &[Vec2]) -> StretchMeasure {
     }
 }
 
-/// [`StretchMeasure::quantile`] alone.
-pub(super) fn quantile(mesh: &QuadMesh, uv: &[Vec2]) -> f64 {
-    upper_quantile(&mut corner_stretches(mesh, uv))
+/// [`StretchMeasure::quantile`] alone, given the areas in space and in the plane.
+pub(super) fn quantile(mesh: &QuadMesh, uv: &[Vec2], areas: [f64; 2]) -> f64 {
+    upper_quantile(&mut corner_stretches(mesh, uv, areas))
 }
 
 /// Stretch and area in space of each corner triangle; the area is 0 where there is none.
-fn corner_stretches(mesh: &QuadMesh, uv: &[Vec2]) -> Vec<(f64, f64)> {
-    let [space, plane] = super::measures::areas(mesh, uv);
+fn corner_stretches(mesh: &QuadMesh, uv: &[Vec2], [space, plane]: [f64; 2]) -> Vec<(f64, f64)> {
     let scale = if plane > 0.0 { (space / plane).sqrt() } else { 1.0 };
     let corners = (0..mesh.corner_count()).into_par_iter().with_min_len(4096);
     corners

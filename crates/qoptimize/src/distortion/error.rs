@@ -1,6 +1,7 @@
 //! Why UVs cannot be measured.
 
 use qembed::qmesh::{PolygonView, Vec2};
+use rayon::prelude::*;
 
 /// Why UVs cannot be measured. Indices count from 0, as in the caller's arrays.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -55,14 +56,18 @@ pub enum MeasureError {
     NoSurface,
 }
 
+/// The least that a thread looks at.
+const AT_ONCE: usize = 1 << 15;
+
 /// Everything that the measures rely on.
 pub(crate) fn check(polygons: PolygonView<'_>, uv: &[Vec2]) -> Result<(), MeasureError> {
     check_arrays(polygons, uv)?;
-    if let Some(corner) = uv.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
+    let is_lost = |p: &Vec2| !p.iter().all(|x| x.is_finite());
+    if let Some(corner) = uv.par_iter().with_min_len(AT_ONCE).position_first(is_lost) {
         return Err(MeasureError::NonFinite { corner });
     }
     let finite = |&v: &u32| polygons.positions[v as usize].iter().all(|x| x.is_finite());
-    match polygons.corner_vertex.iter().find(|v| !finite(v)) {
+    match polygons.corner_vertex.par_iter().with_min_len(AT_ONCE).find_first(|v| !finite(v)) {
         Some(&vertex) => Err(MeasureError::NonFinitePosition { vertex: vertex as usize }),
         None => Ok(()),
     }
@@ -89,7 +94,8 @@ pub(crate) fn check_arrays(polygons: PolygonView<'_>, uv: &[Vec2]) -> Result<(),
         return Err(MeasureError::UvCount { expected: corners, found: uv.len() });
     }
     let count = polygons.positions.len();
-    if let Some(corner) = polygons.corner_vertex.iter().position(|&v| v as usize >= count) {
+    let is_outside = |&v: &u32| v as usize >= count;
+    if let Some(corner) = polygons.corner_vertex.par_iter().with_min_len(AT_ONCE).position_first(is_outside) {
         let vertex = polygons.corner_vertex[corner];
         return Err(MeasureError::IndexOutOfRange { corner, vertex, count });
     }

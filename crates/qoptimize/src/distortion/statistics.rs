@@ -14,6 +14,20 @@ pub(super) fn by_runs<T: Send>(faces: usize, part: impl Fn(Range<usize>) -> T + 
         .collect()
 }
 
+/// All lists one after the other, copied by all threads: on large meshes most of the time goes into fresh memory.
+pub(super) fn concatenated(parts: Vec<Vec<f64>>) -> Vec<f64> {
+    let mut all = vec![0.0; parts.iter().map(Vec::len).sum()];
+    let mut rest = all.as_mut_slice();
+    let mut places = Vec::with_capacity(parts.len());
+    for part in parts {
+        let (here, after) = rest.split_at_mut(part.len());
+        rest = after;
+        places.push((here, part));
+    }
+    places.into_par_iter().for_each(|(here, part)| here.copy_from_slice(&part));
+    all
+}
+
 /// The `fraction`-quantile, linear between neighbours (definition 7 of Hyndman and Fan 1996, NumPy's default).
 /// Reorders the values. `None` without values.
 pub(super) fn quantile(values: &mut [f64], fraction: f64) -> Option<f64> {
@@ -27,7 +41,13 @@ pub(super) fn quantile(values: &mut [f64], fraction: f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::quantile;
+    use super::{concatenated, quantile};
+
+    #[test]
+    fn lists_keep_their_order() {
+        assert_eq!(concatenated(vec![vec![3.0, 1.0], vec![], vec![2.0]]), [3.0, 1.0, 2.0]);
+        assert_eq!(concatenated(Vec::new()), []);
+    }
 
     /// `numpy.quantile([3, 1, 2, 10], [0, .5, .99, 1])`.
     #[test]

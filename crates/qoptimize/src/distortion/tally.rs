@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::corners::{Corner, Stretch, Surface};
 use super::eight::{CORNERS, Eight};
 use super::quads::Quads;
+use super::statistics::concatenated;
 use crate::lanes::{Lanes, vectorized};
 
 /// UV angles below this (radians) count as this.
@@ -90,11 +91,16 @@ impl Areas {
         }
     }
 
-    pub(super) fn append(&mut self, mut other: Self) {
-        self.space += other.space;
-        self.plane += other.plane;
-        self.corners += other.corners;
-        self.faces.append(&mut other.faces);
+    /// The areas of runs of faces together.
+    pub(super) fn total(parts: Vec<Self>) -> Self {
+        let mut total = Self::default();
+        for part in &parts {
+            total.space += part.space;
+            total.plane += part.plane;
+            total.corners += part.corners;
+        }
+        total.faces = concatenated(parts.into_iter().map(|part| part.faces).collect());
+        total
     }
 }
 
@@ -280,10 +286,20 @@ impl Tally {
         self.singular_ratios.push(s1 / s2);
     }
 
-    pub(super) fn append(&mut self, mut other: Self) {
-        self.angle_terms.append(&mut other.angle_terms);
-        self.area_ratios.append(&mut other.area_ratios);
-        self.singular_ratios.append(&mut other.singular_ratios);
+    /// The sums and lists of runs of faces together.
+    pub(super) fn total(mut parts: Vec<Self>) -> Self {
+        let mut total = Self::default();
+        parts.iter().for_each(|part| total.add_sums(part));
+        let mut list = |of: fn(&mut Self) -> &mut Vec<f64>| {
+            concatenated(parts.iter_mut().map(|part| std::mem::take(of(part))).collect())
+        };
+        total.angle_terms = list(|part| &mut part.angle_terms);
+        total.area_ratios = list(|part| &mut part.area_ratios);
+        total.singular_ratios = list(|part| &mut part.singular_ratios);
+        total
+    }
+
+    fn add_sums(&mut self, other: &Self) {
         self.angle_symmetric += other.angle_symmetric;
         self.angle_squares += other.angle_squares;
         self.angle_clamped += other.angle_clamped;

@@ -58,7 +58,6 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use qembed::qmesh::{PolygonView, Vec2};
-use rayon::prelude::*;
 
 pub use self::violation::{Place, Violation, ViolationKind};
 use crate::distortion::{Distortion, MeasureError, check, measure_islands};
@@ -161,7 +160,7 @@ fn certify_islands(
     islands: &Islands,
     limit: usize,
 ) -> Certificate {
-    let is_finite = corner_uv.par_iter().all(|p| p.iter().all(|x| x.is_finite()));
+    let is_finite = crate::distortion::first(corner_uv, |p| !p.iter().all(|x| x.is_finite())).is_none();
     let map = Map { polygons, uv: corner_uv, islands, all_finite: is_finite };
     let mut found = Findings { limit, ..Findings::default() };
     let verdicts = faces::judge(&map);

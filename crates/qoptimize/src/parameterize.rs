@@ -211,7 +211,8 @@ pub fn parameterize_from(
     let mut uv = mesh.to_corners(&uv);
     watch(observer, 0.0)?;
     record.rounding = rounding::to_precision(mesh.view(), &mut uv, options.precision)?;
-    let (distortion, certificate) = judge(mesh.view(), &uv, rounding::LISTED)?;
+    // From inside the pool, where short parallel loops do not have to wake it first.
+    let (distortion, certificate) = rayon::scope(|_| judge(mesh.view(), &uv, rounding::LISTED))?;
     watch(observer, 1.0)?;
     Ok(Parameterization { uv, distortion, certificate, record })
 }

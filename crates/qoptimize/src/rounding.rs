@@ -54,11 +54,17 @@ pub(crate) fn mend(
     precision: UvPrecision,
 ) -> Rounding {
     let faces = || (0..polygons.face_count()).into_par_iter().with_min_len(1024);
-    let shapes: Vec<Shape> = faces().map(|face| Shape::of(polygons, exact, face)).collect();
     let now = &*rounded;
-    let broken: Vec<usize> = faces().filter(|&face| !shapes[face].is_kept(polygons, now, face)).collect();
+    let is_broken = |&face: &usize| {
+        // A triangle or quad that is convex has kept whatever it was.
+        let is_convex = polygons.corners(face).len() <= 4 && Shape::Convex.is_kept(polygons, now, face);
+        let is_kept = || Shape::of(polygons, exact, face).is_kept(polygons, now, face);
+        !is_convex && !is_kept()
+    };
+    let broken: Vec<usize> = faces().filter(is_broken).collect();
     let mut rounding = Rounding { broken_faces: broken.len(), ..Rounding::default() };
     if !broken.is_empty() {
+        let shapes: Vec<Shape> = faces().map(|face| Shape::of(polygons, exact, face)).collect();
         let mut mender = Mender::new(polygons, exact, rounded, &shapes, precision);
         let left = mender.mend(broken.into_iter().collect());
         rounding.moved_points = mender.moved.len();

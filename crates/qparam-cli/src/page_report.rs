@@ -19,7 +19,7 @@ use crate::picture::{
 use crate::progress::Watch;
 use crate::render_command::{checks, clay};
 use crate::streams::Streams;
-use crate::sweep::{Errors, knee};
+use crate::sweep::{Errors, knee, middle_first};
 use crate::threads;
 use crate::worst;
 
@@ -134,10 +134,10 @@ fn entries(source: &Source<'_>, watch: &Watch<'_>, notes: &mut Vec<String>) -> R
     let mut entries = vec![Entry { q: Some(options.map.q), ..own }];
     let mut series = source.q.unwrap_or_else(|| usual_q(polygons.face_count())).to_vec();
     series.retain(|q| q.total_cmp(&options.map.q).is_ne());
-    series.sort_unstable_by(|a, b| b.total_cmp(a));
+    series.sort_unstable_by(f64::total_cmp);
     series.dedup();
     let mut before = Vec::new();
-    for q in series {
+    for q in middle_first(&series).into_iter().map(|place| series[place]) {
         let map = Options { q, ..options.map.clone() };
         let other = AtlasOptions { map, max_stretch: None, ..options.clone() };
         let repairs = source.repairs.clone();

@@ -151,17 +151,28 @@ impl Kept {
 
     /// How far one gets from where the other maps say that this one lies; `None` where they say nothing of use.
     fn walked(&mut self, run: &Run<'_>) -> Result<Option<(Vec<Vec2>, Descent)>, DescentError> {
-        let Some(nearest) = self.series.nearest(run.objective) else { return Ok(None) };
-        let energy = |uv: &[Vec2]| energy::value(run.objective, &self.rest, uv);
+        let predicted = self.series.predicted(run.objective);
+        if let Some(walked) = predicted.map(|uv| self.walked_from(uv, run)).transpose()?.flatten() {
+            return Ok(Some(walked));
+        }
         // Where corners are squeezed a prediction may go too far.
-        let predicted =
-            self.series.predicted(run.objective).filter(|predicted| energy(predicted) < energy(nearest));
-        let mut uv = predicted.unwrap_or_else(|| nearest.to_vec());
+        let nearest = self.series.nearest(run.objective).map(<[Vec2]>::to_vec);
+        Ok(nearest.map(|uv| self.walked_from(uv, run)).transpose()?.flatten())
+    }
+
+    /// How far one gets from `uv`; `None` where that is too far from the minimum to begin.
+    fn walked_from(
+        &mut self,
+        mut uv: Vec<Vec2>,
+        run: &Run<'_>,
+    ) -> Result<Option<(Vec<Vec2>, Descent)>, DescentError> {
         let Self { rest, hessian, learnt, .. } = self;
         let mut tail = Tail { rest, hessian, learnt, objective: run.objective };
         match tail.walk(&mut uv, run.options, run.observer) {
+            Ok(Descent { steps: 0, stop: Stop::MaxSteps, .. }) | Err(DescentError::InvalidStart(_)) => {
+                Ok(None)
+            }
             Ok(descent) => Ok(Some((uv, descent))),
-            Err(DescentError::InvalidStart(_)) => Ok(None),
             Err(error) => Err(error),
         }
     }

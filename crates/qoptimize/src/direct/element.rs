@@ -53,6 +53,12 @@ pub(super) fn stretch(rest: &RestCorner, f: Edges) -> Stretch {
     Stretch::new(jacobian(rest, f))
 }
 
+/// Whether s1/s2 is above `limit`.
+pub(super) fn is_stretched_beyond(limit: f64, rest: &RestCorner, f: Edges) -> bool {
+    let [larger, smaller] = stretch(rest, f).s;
+    larger > limit * smaller
+}
+
 /// A derivative by the Jacobian, as one by the edge vectors.
 fn pull_back(rest: &RestCorner, [ax, ay, bx, by]: Columns) -> Edges {
     let [i11, i12, i22] = rest.inverse;

@@ -4,13 +4,6 @@
 //! what is lost: it sees no stretch along a quad's own edges, so a fine zigzag of such stretches imitates a shear at less
 //! cost. Enough symmetric Dirichlet against it mends that.
 
-use rayon::prelude::*;
-
-use crate::qmesh::Vec2;
-
-use super::energy::edges;
-use super::isotropic::Stretch;
-use super::rest::Rest;
 use super::{AngleTerm, Objective};
 
 /// Per angle term: the weight of symmetric Dirichlet over that of the angles that keeps square cells elliptic up to a
@@ -34,14 +27,4 @@ impl Objective {
         let ratio = shape / q;
         Some(table.iter().find(|(least, _)| ratio >= *least).map_or(1.0, |&(_, limit)| limit))
     }
-}
-
-/// How many corners are stretched beyond `limit`.
-pub(super) fn corners_beyond(rest: &Rest, uv: &[Vec2], limit: f64) -> usize {
-    let is_beyond = |index: &usize| {
-        let corner = &rest.corners[*index];
-        let [larger, smaller] = Stretch::new(super::element::jacobian(corner, edges(corner, uv))).s;
-        larger > limit * smaller
-    };
-    (0..rest.corners.len()).into_par_iter().with_min_len(4096).filter(is_beyond).count()
 }

@@ -11,7 +11,7 @@ use crate::qmesh::{Observer, QuadMesh, Vec2, VertexData, VertexId};
 
 use super::clear::FreeProblem;
 use super::continuation::Continuation;
-use super::elliptic::corners_beyond;
+use super::energy;
 use super::held::HeldBoundary;
 use super::hessian::Hessian;
 use super::mirrored;
@@ -101,10 +101,9 @@ pub fn embed_from(
         }
         pins => run.pin(&mut map, pins, &mut report)?,
     }
-    report.terms = Terms::of(objective, &map.rest, &map.uv);
     report.elliptic_limit = objective.elliptic_limit();
-    report.corners_beyond_elliptic =
-        report.elliptic_limit.map_or(0, |limit| corners_beyond(&map.rest, &map.uv, limit));
+    (report.terms, report.corners_beyond_elliptic) =
+        energy::terms(objective, &map.rest, &map.uv, report.elliptic_limit);
     let unit = map.rest.unit;
     Ok((VertexData::from_vec(map.uv.iter().map(|p| p * unit).collect()), report))
 }

@@ -35,20 +35,21 @@ pub struct Terms {
     pub shape: f64,
 }
 
-impl Terms {
-    pub(super) fn of(objective: &Objective, rest: &Rest, uv: &[Vec2]) -> Self {
-        match *objective {
-            Objective::Direct { angle_term, .. } => {
-                let sums: Vec<[f64; 3]> =
-                    rest.par_chunks(CHUNK).map(|corners| kernel::terms(angle_term, corners, uv)).collect();
-                let [angle, area, shape] =
-                    sums.iter().fold([0.0; 3], |sum, terms| std::array::from_fn(|i| sum[i] + terms[i]));
-                Self { angle, area, shape }
-            }
-            Objective::Conformal { .. } => {
-                let alone = |q| value(&Objective::Conformal { q }, rest, uv);
-                Self { angle: alone(1.0), area: alone(0.0), shape: 0.0 }
-            }
+/// What the energy of `uv` is made of, and how many corners are stretched beyond `limit`; none are where there is no limit.
+pub(super) fn terms(objective: &Objective, rest: &Rest, uv: &[Vec2], limit: Option<f64>) -> (Terms, usize) {
+    match *objective {
+        Objective::Direct { angle_term, .. } => {
+            let limit = limit.unwrap_or(f64::INFINITY);
+            let chunks = rest.par_chunks(CHUNK).map(|corners| kernel::terms(angle_term, limit, corners, uv));
+            let chunks: Vec<([f64; 3], usize)> = chunks.collect();
+            let [angle, area, shape] =
+                chunks.iter().fold([0.0; 3], |sum, (terms, _)| std::array::from_fn(|i| sum[i] + terms[i]));
+            (Terms { angle, area, shape }, chunks.iter().map(|(_, beyond)| beyond).sum())
+        }
+        // Elliptic at any stretch.
+        Objective::Conformal { .. } => {
+            let alone = |q| value(&Objective::Conformal { q }, rest, uv);
+            (Terms { angle: alone(1.0), area: alone(0.0), shape: 0.0 }, 0)
         }
     }
 }

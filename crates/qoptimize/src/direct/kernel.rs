@@ -40,36 +40,39 @@ pub(super) fn value(objective: &Objective, chunk: Corners<'_>, uv: &[Vec2]) -> f
     )
 }
 
-/// The sums of the angle, area and symmetric Dirichlet terms of `corners`, each weighted as in the energy but for q and shape.
-pub(super) fn terms(term: AngleTerm, chunk: Corners<'_>, uv: &[Vec2]) -> [f64; 3] {
+/// The sums of the angle, area and symmetric Dirichlet terms of `corners`, each weighted as in the energy but for q and shape, and how
+/// many corners are stretched beyond `limit`.
+pub(super) fn terms(term: AngleTerm, limit: f64, chunk: Corners<'_>, uv: &[Vec2]) -> ([f64; 3], usize) {
     let count = chunk.corners.len();
-    let one_by_one = |places: Range<usize>| {
-        let alone = |q, shape, at: usize| {
-            let objective = Objective::Direct { q, shape, angle_term: term };
-            element::value(&objective, &chunk.corners[at], chunk.edges(at, uv))
-        };
-        let mut sums = [0.0; 3];
+    let add_one_by_one = |places: Range<usize>, (sums, beyond): &mut ([f64; 3], usize)| {
         for at in places {
-            let area = alone(0.0, 0.0, at);
-            let terms = [alone(1.0, 0.0, at), area, alone(0.0, 1.0, at) - area];
+            let (corner, edges) = (&chunk.corners[at], chunk.edges(at, uv));
+            let alone =
+                |q, shape| element::value(&Objective::Direct { q, shape, angle_term: term }, corner, edges);
+            let area = alone(0.0, 0.0);
+            let terms = [alone(1.0, 0.0), area, alone(0.0, 1.0) - area];
             sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+            *beyond += usize::from(element::is_stretched_beyond(limit, corner, edges));
         }
-        sums
     };
     vectorized(
         #[inline(always)]
         || {
             let (groups, last) = chunk.corners.as_chunks::<LANES>();
             let mut sums = [Lanes::ZERO; 3];
-            let mut others = one_by_one(count - last.len()..count);
+            let mut others = ([0.0; 3], 0);
+            add_one_by_one(count - last.len()..count, &mut others);
             for (number, corners) in groups.iter().enumerate() {
                 let places = number * LANES..(number + 1) * LANES;
-                match Group::new(corners, chunk.frames.get(places.clone()), uv).terms(term) {
-                    Some(terms) => (0..3).for_each(|i| sums[i] += terms[i]),
-                    None => others.iter_mut().zip(one_by_one(places)).for_each(|(sum, term)| *sum += term),
+                match Group::new(corners, chunk.frames.get(places.clone()), uv).terms(term, limit) {
+                    Some((terms, beyond)) => {
+                        (0..3).for_each(|i| sums[i] += terms[i]);
+                        others.1 += beyond;
+                    }
+                    None => add_one_by_one(places, &mut others),
                 }
             }
-            std::array::from_fn(|i| sums[i].0.iter().sum::<f64>() + others[i])
+            (std::array::from_fn(|i| sums[i].0.iter().sum::<f64>() + others.0[i]), others.1)
         },
     )
 }

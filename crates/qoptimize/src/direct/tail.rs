@@ -20,7 +20,7 @@ use super::step::first_collapse;
 use super::{Descent, DescentError, DescentOptions, Objective, Stop};
 
 /// The decrement is known less well than after a Newton step: it has to be this much smaller than what ends a descent.
-const MARGIN: f64 = 0.25;
+const MARGIN: f64 = 0.5;
 /// A decrement of more than this fraction of the energy is for Newton steps.
 const FAR: f64 = 0.02;
 /// With one that falls by less than this from one step to the next, the system is too old, or too far from the second derivatives.

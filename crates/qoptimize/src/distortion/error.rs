@@ -59,16 +59,24 @@ pub enum MeasureError {
 /// The least that a thread looks at.
 const AT_ONCE: usize = 1 << 15;
 
+/// The place of the first item that `is_bad`.
+pub(crate) fn first<T: Sync>(items: &[T], is_bad: impl Fn(&T) -> bool + Sync) -> Option<usize> {
+    let chunks = items.par_chunks(AT_ONCE).enumerate();
+    chunks.find_map_first(|(number, chunk)| Some(number * AT_ONCE + chunk.iter().position(&is_bad)?))
+}
+
 /// Everything that the measures rely on.
 pub(crate) fn check(polygons: PolygonView<'_>, uv: &[Vec2]) -> Result<(), MeasureError> {
     check_arrays(polygons, uv)?;
     let is_lost = |p: &Vec2| !p.iter().all(|x| x.is_finite());
-    if let Some(corner) = uv.par_iter().with_min_len(AT_ONCE).position_first(is_lost) {
+    if let Some(corner) = first(uv, is_lost) {
         return Err(MeasureError::NonFinite { corner });
     }
     let finite = |&v: &u32| polygons.positions[v as usize].iter().all(|x| x.is_finite());
-    match polygons.corner_vertex.par_iter().with_min_len(AT_ONCE).find_first(|v| !finite(v)) {
-        Some(&vertex) => Err(MeasureError::NonFinitePosition { vertex: vertex as usize }),
+    match first(polygons.corner_vertex, |vertex| !finite(vertex)) {
+        Some(corner) => {
+            Err(MeasureError::NonFinitePosition { vertex: polygons.corner_vertex[corner] as usize })
+        }
         None => Ok(()),
     }
 }
@@ -95,7 +103,7 @@ pub(crate) fn check_arrays(polygons: PolygonView<'_>, uv: &[Vec2]) -> Result<(),
     }
     let count = polygons.positions.len();
     let is_outside = |&v: &u32| v as usize >= count;
-    if let Some(corner) = polygons.corner_vertex.par_iter().with_min_len(AT_ONCE).position_first(is_outside) {
+    if let Some(corner) = first(polygons.corner_vertex, is_outside) {
         let vertex = polygons.corner_vertex[corner];
         return Err(MeasureError::IndexOutOfRange { corner, vertex, count });
     }

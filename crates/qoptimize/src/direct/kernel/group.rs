@@ -65,6 +65,20 @@ impl<const SECOND: bool> Eight<SECOND> {
     }
 }
 
+/// What energies are made of, without any weights.
+struct Parts {
+    /// The square of the angle term's residual.
+    angle: Lanes,
+    /// Twice the area term.
+    area: Lanes,
+    /// Symmetric Dirichlet less one.
+    dirichlet: Lanes,
+    /// `s1² + s2²`.
+    norm: Lanes,
+    /// `s1 s2`.
+    det: Lanes,
+}
+
 /// The angle term's residual, and its derivative by φ.
 #[inline(always)]
 fn angle_residual(term: AngleTerm, theta: Lanes, phi: Lanes) -> (Lanes, Lanes) {
@@ -127,10 +141,9 @@ impl Group {
         [f1x * i11, f1y * i11, f1x * i12 + f0x * i22, f1y * i12 + f0y * i22]
     }
 
-    /// What the energies are made of, without any weights: the square of the angle term's residual, twice the area term, and
-    /// symmetric Dirichlet less one. `None` where one of the corners is out of the ordinary.
+    /// What the energies are made of; `None` where one of the corners is out of the ordinary.
     #[inline(always)]
-    fn parts(&self, term: AngleTerm) -> Option<[Lanes; 3]> {
+    fn parts(&self, term: AngleTerm) -> Option<Parts> {
         let cross = self.cross();
         let phi = self.phi(cross);
         if !(cross.all_above(ORDINARY) && phi.all_above(ORDINARY)) {
@@ -142,20 +155,23 @@ impl Group {
         let [a, b, c, d] = self.jacobian();
         let (norm, det) = (a * a + b * b + c * c + d * d, a * d - b * c);
         let dirichlet = (norm + norm * (det * det).recip()) * 0.25 - 1.0;
-        Some([angle * angle, more * more + less * less, dirichlet])
+        Some(Parts { angle: angle * angle, area: more * more + less * less, dirichlet, norm, det })
     }
 
     #[inline(always)]
     pub(super) fn value(&self, q: f64, shape: f64, term: AngleTerm) -> Option<Lanes> {
-        let [angle, area, dirichlet] = self.parts(term)?;
+        let Parts { angle, area, dirichlet, .. } = self.parts(term)?;
         Some(self.share * (angle * q + area * (0.5 * (1.0 - q))) + self.weight * dirichlet * shape)
     }
 
-    /// The shares that [`Terms`](super::super::Terms) are sums of.
+    /// The shares that [`Terms`](super::super::Terms) are sums of, and how many corners are stretched beyond `limit`.
     #[inline(always)]
-    pub(super) fn terms(&self, term: AngleTerm) -> Option<[Lanes; 3]> {
-        let [angle, area, dirichlet] = self.parts(term)?;
-        Some([self.share * angle, self.share * area * 0.5, self.weight * dirichlet])
+    pub(super) fn terms(&self, term: AngleTerm, limit: f64) -> Option<([Lanes; 3], usize)> {
+        let Parts { angle, area, dirichlet, norm, det } = self.parts(term)?;
+        // s1/s2 + s2/s1, which grows with s1/s2.
+        let bound = det * (limit + limit.recip());
+        let beyond = (0..LANES).filter(|&l| norm.0[l] > bound.0[l]).count();
+        Some(([self.share * angle, self.share * area * 0.5, self.weight * dirichlet], beyond))
     }
 
     #[inline(always)]

@@ -49,6 +49,12 @@ impl Symbolic {
         Ok(Self { pattern: matrix.pattern().clone(), analysis })
     }
 
+    /// Entries that the factor of a symmetric matrix will have, 8 bytes each; `None` for general ones, whose pivots decide.
+    #[must_use]
+    pub fn factor_entries(&self) -> Option<usize> {
+        self.analysis.factor_entries()
+    }
+
     /// Factorizes `matrix`, which has the pattern that was analysed.
     ///
     /// # Errors

@@ -61,6 +61,14 @@ impl Analysis {
         }
     }
 
+    /// Entries of the factor that will be stored, explicit zeros of its dense blocks among them. Of LU only a bound would be known.
+    pub(crate) fn factor_entries(&self) -> Option<usize> {
+        match &self.shape {
+            Shape::Cholesky(shape) => Some(shape.len_val()),
+            Shape::Lu(_) => None,
+        }
+    }
+
     /// Factorizes a matrix of the analysed pattern with finite entries.
     pub(crate) fn factor(&self, matrix: &CsrMatrix<f64>) -> Result<Factors, SolveError> {
         let values = self.columns.values(matrix);

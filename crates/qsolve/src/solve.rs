@@ -22,10 +22,14 @@ const LU_LIMIT: usize = 500_000;
 /// length. Four million unknowns would have 200 million entries in their factor.
 const CHOLESKY_LIMIT: usize = 1_500_000;
 
+/// Entries of a factor above which multigrid is tried first, whatever the number of unknowns: 0.8 GB. Those of surfaces have 30 to 50 for each
+/// unknown at a million; systems that are not planar, as of volumes, many times that.
+const FACTOR_LIMIT: usize = 100_000_000;
+
 /// Solves `A X = B`, `A` n × n, `B` n × k.
 ///
-/// Symmetric systems are factorized up to 1.5 million unknowns, general ones up to half a million; larger ones are iterated
-/// on first, the symmetric ones by multigrid, and factorized when that fails. Every answer is checked against the
+/// Symmetric systems are factorized up to 1.5 million unknowns, if their factor will have at most a hundred million entries, general
+/// ones up to half a million unknowns; larger ones are iterated on first, the symmetric ones by multigrid, and factorized when that fails. Every answer is checked against the
 /// matrix, and refined or refused when its residual is too large.
 ///
 /// ```
@@ -53,7 +57,8 @@ pub fn solve(
     check_bound(options.residual_bound)?;
     check_matrix(matrix)?;
     check_rhs(matrix.nrows(), rhs)?;
-    let direct = || Symbolic::analyze(matrix, structure)?.factor(matrix)?.solve(rhs, options.residual_bound);
+    let factorized = |symbolic: &Symbolic| symbolic.factor(matrix)?.solve(rhs, options.residual_bound);
+    let direct = || factorized(&Symbolic::analyze(matrix, structure)?);
     let iterative =
         || Krylov::new(matrix, structure, options.max_iterations)?.solve(rhs, options.residual_bound);
     if matrix.nrows() == 0 {
@@ -74,12 +79,26 @@ pub fn solve(
         (Backend::Auto, Structure::SymmetricPositiveDefinite) if matrix.nrows() > CHOLESKY_LIMIT => {
             multigrid().or_else(|_| direct())
         }
-        (Backend::Auto, Structure::General) if matrix.nrows() > LU_LIMIT => iterative().or_else(|_| direct()),
-        (Backend::Auto, _) => match direct() {
-            Err(SolveError::TooLarge { .. }) => iterative(),
-            decided => decided,
+        (Backend::Auto, Structure::SymmetricPositiveDefinite) => match Symbolic::analyze(matrix, structure) {
+            Ok(symbolic) if symbolic.factor_entries() > Some(FACTOR_LIMIT) => {
+                multigrid().or_else(|_| factorized(&symbolic))
+            }
+            Ok(symbolic) => unless_too_large(factorized(&symbolic), iterative),
+            Err(error) => unless_too_large(Err(error), iterative),
         },
+        (Backend::Auto, Structure::General) if matrix.nrows() > LU_LIMIT => iterative().or_else(|_| direct()),
+        (Backend::Auto, Structure::General) => unless_too_large(direct(), iterative),
         (Backend::Iterative, _) => iterative().or_else(|_| direct()),
+    }
+}
+
+type Answer = Result<(DMatrix<f64>, SolveRecord), SolveError>;
+
+/// What was found, or what `otherwise` finds where memory did not suffice.
+fn unless_too_large(found: Answer, otherwise: impl FnOnce() -> Answer) -> Answer {
+    match found {
+        Err(SolveError::TooLarge { .. }) => otherwise(),
+        decided => decided,
     }
 }
 

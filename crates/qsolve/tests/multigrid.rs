@@ -103,6 +103,38 @@ fn multigrid_agrees_with_factors() {
     }
 }
 
+/// The Laplacian of a box of `side³` unknowns that is held at its faces.
+fn volume(side: usize) -> CsrMatrix<f64> {
+    let mut triplets = qsolve::Triplets::new(side.pow(3), side.pow(3));
+    for row in 0..side.pow(3) {
+        triplets.add(row, row, 6.0);
+        for (stride, along) in [(1, row % side), (side, row / side % side), (side * side, row / side / side)]
+        {
+            if along + 1 < side {
+                triplets.add(row, row + stride, -1.0);
+                triplets.add(row + stride, row, -1.0);
+            }
+        }
+    }
+    triplets.build().expect("indices are in range")
+}
+
+/// What decides is not the number of unknowns but how many entries their factor would have: few for a surface, many for a volume.
+#[test]
+fn what_would_fill_in_is_not_factorized() {
+    let surface = spd(465, 1.0, &mut Random::new(5));
+    let box_of_springs = volume(60);
+    for (matrix, method) in [(surface, SolveMethod::Cholesky), (box_of_springs, SolveMethod::Multigrid)] {
+        let entries = qsolve::Symbolic::analyze(&matrix, SPD).unwrap().factor_entries().unwrap();
+        let b = rhs(matrix.nrows(), 1, &mut Random::new(6));
+        let (_, record) = solve(&matrix, SPD, &b, &SolveOptions::default()).unwrap();
+        assert_eq!(record.method, method, "{} unknowns, {entries} entries in the factor", matrix.nrows());
+        assert!(record.relative_residual < 1e-11, "{record:?}");
+    }
+    let general = row_normalized(8, &mut Random::new(7));
+    assert_eq!(qsolve::Symbolic::analyze(&general, Structure::General).unwrap().factor_entries(), None);
+}
+
 /// A matrix that is not positive definite is refused, after the factorization has been asked too.
 #[test]
 fn an_indefinite_matrix_is_refused() {

@@ -17,7 +17,7 @@ const BEND: f64 = 10.0;
 /// Faces with an edge shorter than this fraction of their longest, or as thin, are degenerate.
 const THIN: f64 = 0.01;
 
-/// A face with its errors, as [`measure_faces`] defines them.
+/// A face with its errors, as [`measure_faces`](crate::measure_faces) defines them.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]

@@ -84,10 +84,9 @@ impl Interrupt {
         self.phase.fetch_update(SeqCst, SeqCst, unless_ending).ok()
     }
 
-    /// The last moment at which files can be kept from their places: `false` says that somebody asked to stop, and that they are
-    /// not to be put there. After `true` the command comes to its end.
-    pub(crate) fn may_place(&self) -> bool {
-        !self.is_requested() && self.enter(Phase::Placed).is_some()
+    /// From here on the command comes to its end, whoever asks to stop: its files are in place. To be called while writing.
+    pub(crate) fn placed(&self) {
+        let _ = self.enter(Phase::Placed);
     }
 
     /// Runs `work` in `phase`; what has been placed meanwhile stays so.
@@ -128,15 +127,12 @@ mod tests {
     #[test]
     fn what_is_placed_is_reported() {
         let interrupt = Interrupt::new();
-        interrupt.during(Phase::Writing, || assert!(interrupt.may_place()));
-        assert!(!interrupt.request(), "too late");
+        interrupt.during(Phase::Writing, || {
+            interrupt.placed();
+            assert!(!interrupt.request(), "too late");
+        });
         assert!(!interrupt.end_what_is_observed());
         assert!(interrupt.request(), "impatient");
-        let interrupt = Interrupt::new();
-        interrupt.during(Phase::Writing, || {
-            interrupt.request();
-            assert!(!interrupt.may_place());
-        });
     }
 
     /// Once the end of observed work is decided, no file is begun any more.

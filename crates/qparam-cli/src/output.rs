@@ -50,6 +50,14 @@ impl Target {
         }
     }
 
+    /// Whether it is written to directly, and whoever reads it may be slow: standard output, a pipe, a device.
+    pub(crate) fn is_stream(&self) -> bool {
+        match self {
+            Self::Stdout => true,
+            Self::File(path) => is_special(path),
+        }
+    }
+
     /// Fails early when the target could not be written anyway: after hours of work would be late.
     pub(crate) fn probe(&self) -> Result<(), Failure> {
         let Self::File(path) = self else { return Ok(()) };
@@ -88,7 +96,7 @@ impl Target {
 }
 
 /// Runs `work`, which writes the outputs of a command. Its files are put in their places together, once all are complete; after a
-/// failure or an interruption none is.
+/// failure or an interruption none is. (Where the file system refuses a renaming, the files before are in place already.)
 pub(crate) fn together<T>(
     stdout: &mut dyn Write,
     interrupt: &Interrupt,
@@ -102,7 +110,7 @@ pub(crate) fn together<T>(
     })
 }
 
-/// What a command writes. Standard output goes first: a reader that is slow can be left while there is no file to clean up.
+/// What a command writes. Streams go first: a reader that is slow can be left while there is no file to clean up.
 pub(crate) struct Outputs<'a> {
     stdout: &'a mut dyn Write,
     interrupt: &'a Interrupt,
@@ -124,6 +132,9 @@ impl Outputs<'_> {
         target: &Target,
         content: impl FnOnce(&mut dyn Write) -> io::Result<T>,
     ) -> Result<T, Failure> {
+        if self.interrupt.is_requested() {
+            return Err(Failure::interrupted());
+        }
         let path = match target {
             Target::File(path) if is_special(path) => {
                 // A device or a pipe cannot be renamed over.
@@ -152,16 +163,18 @@ impl Outputs<'_> {
         self.interrupt.during(Phase::Free, || work(self.stdout))
     }
 
+    /// In phase [`Phase::Writing`], so that no signal comes between two files.
     fn place(self) -> Result<(), Failure> {
         if self.complete.is_empty() {
             return Ok(());
         }
-        if !self.interrupt.may_place() {
+        if self.interrupt.is_requested() {
             return Err(Failure::interrupted());
         }
         for Complete { file, target, name } in self.complete {
             file.persist(&target).map_err(|error| cannot(&name, &error.error))?;
         }
+        self.interrupt.placed();
         Ok(())
     }
 }

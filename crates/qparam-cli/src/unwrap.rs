@@ -1,6 +1,7 @@
 //! `qparam unwrap`: read, check, compute, write, report.
 
 use std::collections::BTreeMap;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -331,7 +332,7 @@ impl Job<'_> {
         Ok(threads::with(self.arguments.map.threads, find)?.unwrap_or_default())
     }
 
-    /// Everything that is asked for, standard output first.
+    /// Everything that is asked for, streams first, and the UVs before what else there is.
     fn write(
         &self,
         outputs: &mut Outputs<'_>,
@@ -339,18 +340,24 @@ impl Job<'_> {
         simplified: Option<(&Target, Polygons)>,
         page: Option<(&Target, &str)>,
     ) -> Result<UvWriteSummary, Failure> {
-        let uv = |outputs: &mut Outputs<'_>| {
-            outputs
-                .write(&self.target, |mut writer| self.input.document.write_with_uv(&mut writer, &result.uv))
-        };
-        let first = (self.target == Target::Stdout).then(|| uv(outputs)).transpose()?;
+        type Content<'a> = Box<dyn FnOnce(&mut dyn Write) -> io::Result<()> + 'a>;
+        let mut summary = UvWriteSummary::default();
+        let uv: Content<'_> = Box::new(|mut writer| {
+            summary = self.input.document.write_with_uv(&mut writer, &result.uv)?;
+            Ok(())
+        });
+        let mut contents = vec![(&self.target, uv)];
         if let Some((target, mesh)) = simplified {
-            outputs.write(target, |mut writer| write_obj(&mut writer, mesh.view(), None))?;
+            contents.push((target, Box::new(move |mut writer| write_obj(&mut writer, mesh.view(), None))));
         }
         if let Some((target, html)) = page {
-            outputs.write(target, |writer| writer.write_all(html.as_bytes()))?;
+            contents.push((target, Box::new(|writer| writer.write_all(html.as_bytes()))));
         }
-        first.map_or_else(|| uv(outputs), Ok)
+        contents.sort_by_key(|(target, _)| !target.is_stream());
+        for (target, content) in contents {
+            outputs.write(target, content)?;
+        }
+        Ok(summary)
     }
 
     /// Whether `--max-stretch` could be given, and is not.

@@ -110,6 +110,25 @@ fn ctrl_c_leaves_nothing_behind() {
     assert!(interrupted > 0, "at least the signal at once comes before the end");
 }
 
+/// A pipe that nobody reads is waited for before any file is begun: ctrl-C ends the waiting and leaves nothing.
+#[cfg(unix)]
+#[test]
+fn waiting_for_a_reader_can_be_ended() {
+    use std::process::Command;
+    let folder = Folder::new();
+    folder.write("in.obj", hill(4));
+    assert!(Command::new("mkfifo").arg(folder.path("pipe")).status().unwrap().success());
+    let arguments =
+        ["unwrap", "in.obj", "--quiet", "--method=paper", "-o", "pipe", "--simplified", "simple.obj"];
+    let mut child = folder.command(&arguments).spawn().unwrap();
+    // The work itself takes milliseconds; if not, the signal ends that.
+    std::thread::sleep(std::time::Duration::from_millis(400));
+    assert!(child.try_wait().unwrap().is_none(), "nobody has read");
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_eq!(folder.names(), ["in.obj", "pipe"]);
+}
+
 /// The simplified mesh goes to a place of its own, by whatever name that place is called.
 #[test]
 fn the_simplified_mesh_replaces_neither_input_nor_output() {

@@ -81,7 +81,7 @@ pub fn solve(
         }
         (Backend::Auto, Structure::SymmetricPositiveDefinite) => match Symbolic::analyze(matrix, structure) {
             Ok(symbolic) if symbolic.factor_entries() > Some(FACTOR_LIMIT) => {
-                multigrid().or_else(|_| factorized(&symbolic))
+                multigrid().or_else(|_| unless_too_large(factorized(&symbolic), iterative))
             }
             Ok(symbolic) => unless_too_large(factorized(&symbolic), iterative),
             Err(error) => unless_too_large(Err(error), iterative),

@@ -16,24 +16,29 @@ use crate::disk::{farthest, pairs};
 use crate::embed::single;
 use crate::{EmbedError, Embedding};
 
-/// Entries of the largest factor that is made without being asked for: 8 GB.
-const MOST_ENTRIES: usize = 1_000_000_000;
+/// Entries of the largest factor that is made without being asked for: 2.4 GB.
+const MOST_ENTRIES: usize = 300_000_000;
 
-/// The answer, from factors where these fit into memory: every conformal map has little energy, and no coarser level stands for all of
-/// them. Two million unknowns take 17 s so, and four minutes by multigrid.
+/// The answer, from factors up to a size that most machines have room for: every conformal map has little energy, and no coarser level
+/// stands for all of them. Two million unknowns take 17 s so, and four minutes by multigrid.
 fn solved(
     matrix: &CsrMatrix<f64>,
     rhs: &DMatrix<f64>,
     options: &SolveOptions,
 ) -> Result<(DMatrix<f64>, SolveRecord), SolveError> {
     let structure = Structure::SymmetricPositiveDefinite;
-    if options.backend == Backend::Auto
-        && let Ok(symbolic) = Symbolic::analyze(matrix, structure)
+    if options.backend != Backend::Auto {
+        return qsolve::solve(matrix, structure, rhs, options);
+    }
+    if let Ok(symbolic) = Symbolic::analyze(matrix, structure)
         && symbolic.factor_entries() <= Some(MOST_ENTRIES)
     {
-        return symbolic.factor(matrix)?.solve(rhs, options.residual_bound);
+        match symbolic.factor(matrix).and_then(|factor| factor.solve(rhs, options.residual_bound)) {
+            Err(SolveError::TooLarge { .. }) => {}
+            decided => return decided,
+        }
     }
-    qsolve::solve(matrix, structure, rhs, options)
+    qsolve::solve(matrix, structure, rhs, &SolveOptions { backend: Backend::Multigrid, ..*options })
 }
 
 /// Pins the boundary vertices that are farthest apart (found by walking twice to the farthest vertex) on the `x` axis,

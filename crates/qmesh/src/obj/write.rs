@@ -13,7 +13,7 @@ use super::texture::{SeamCorners, TextureTable, UvFormat};
 use crate::Vec2;
 
 /// What writing UVs did to the text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]

@@ -69,7 +69,7 @@ impl Series {
         nearest.map(|(_, uv)| uv.as_slice())
     }
 
-    /// The map on the polynomial in q through the nearest others of the same kind; `None` where there are not two.
+    /// The map on the polynomial in the stretched q through the nearest others of the same kind; `None` where there are not two.
     pub(super) fn predicted(&self, objective: &Objective) -> Option<Vec<Vec2>> {
         let mut maps: Vec<_> = self.maps.iter().filter(|(other, _)| is_alike(other, objective)).collect();
         if maps.len() < 2 {

@@ -205,7 +205,7 @@ fn a_free_sheet_takes_few_iterations_at_any_size() {
     let mut tight = Vec::new();
     for side in [24, 72, 144] {
         let (matrix, kernel) = sheet(side);
-        let multigrid = Multigrid::new(matrix, &kernel, FREE).unwrap();
+        let multigrid = Multigrid::new(matrix, kernel, FREE).unwrap();
         let mut cg = ConjugateGradients::new(&multigrid, balanced(multigrid.matrix()));
         while cg.relative_residual() > 0.1 && cg.advance() {}
         assert!(cg.iterations() <= 4, "side {side}: {} iterations to a tenth", cg.iterations());
@@ -219,7 +219,7 @@ fn a_free_sheet_takes_few_iterations_at_any_size() {
 #[test]
 fn the_energy_that_is_left_is_known() {
     let (matrix, kernel) = sheet(60);
-    let multigrid = Multigrid::new(matrix, &kernel, FREE).unwrap();
+    let multigrid = Multigrid::new(matrix, kernel, FREE).unwrap();
     let b = balanced(multigrid.matrix());
     let mut exact = ConjugateGradients::new(&multigrid, b.clone());
     while exact.relative_residual() > 1e-9 && exact.advance() {}
@@ -242,12 +242,12 @@ fn a_refreshed_hierarchy_serves_like_a_fresh_one() {
         while cg.relative_residual() > 1e-6 && cg.advance() {}
         cg.iterations()
     };
-    let fresh = Multigrid::new(matrix.clone(), &kernel, FREE).unwrap();
-    let mut other = Multigrid::new(matrix, &kernel, FREE).unwrap();
+    let fresh = Multigrid::new(matrix.clone(), kernel.clone(), FREE).unwrap();
+    let mut other = Multigrid::new(matrix, kernel.clone(), FREE).unwrap();
     other
         .matrix_mut()
         .fill_rows(|_, _, blocks| blocks.iter_mut().flatten().flatten().for_each(|x| *x *= 3.0));
-    other.refresh(&kernel).unwrap();
+    other.refresh(kernel).unwrap();
     assert!(count(&fresh).abs_diff(count(&other)) <= 1);
 }
 
@@ -260,8 +260,8 @@ fn threads_do_not_change_the_bits() {
     let run = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let mut multigrid = Multigrid::new(matrix.clone(), &kernel, FREE).unwrap();
-            multigrid.refresh(&kernel).unwrap();
+            let mut multigrid = Multigrid::new(matrix.clone(), kernel.clone(), FREE).unwrap();
+            multigrid.refresh(kernel.clone()).unwrap();
             let mut cg = ConjugateGradients::new(&multigrid, balanced(multigrid.matrix()));
             (0..6).for_each(|_| assert!(cg.advance()));
             let (x, _) = solver(&scalar).solve(&b, 1e-10).unwrap();

@@ -261,12 +261,12 @@ impl Iterated {
     pub(super) fn refresh(&mut self, uv: &[Vec2]) -> Result<(), SolveError> {
         let kernel = self.near_kernel(uv);
         match &mut self.state {
-            State::Ready(multigrid) => multigrid.refresh(&kernel),
+            State::Ready(multigrid) => multigrid.refresh(kernel),
             State::Bare(matrix) => {
                 let free = !self.fixed.contains(&true);
                 let options = MultigridOptions { strength: 0.0, shift: SHIFT, floating: free };
                 let matrix = std::mem::replace(matrix, BlockMatrix::zeros(vec![0], Vec::new())?);
-                self.state = State::Ready(Box::new(Multigrid::new(matrix, &kernel, options)?));
+                self.state = State::Ready(Box::new(Multigrid::new(matrix, kernel, options)?));
                 Ok(())
             }
         }

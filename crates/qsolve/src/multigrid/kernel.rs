@@ -17,23 +17,18 @@ pub(super) struct Tentative<const F: usize, const C: usize> {
 }
 
 impl<const F: usize, const C: usize> Tentative<F, C> {
-    pub(super) fn new(kernel: &[Block<F, C>], aggregate: &[u32], members: &Members) -> Self {
+    /// In the memory of `kernel`.
+    pub(super) fn new(mut kernel: Vec<Block<F, C>>, aggregate: &[u32], members: &Members) -> Self {
         let factors: Vec<(Block<C, C>, Block<C, C>)> = (0..members.count())
             .into_par_iter()
             .with_min_len(256)
             .map(|number| orthonormalize(members.of(number).iter().map(|&row| &kernel[row as usize])))
             .collect();
-        let blocks = kernel
-            .par_iter()
-            .with_min_len(1024)
-            .zip(aggregate)
-            .map(
-                |(kernel, &number)| {
-                    if number == NONE { [[0.0; C]; F] } else { times(kernel, &factors[number as usize].1) }
-                },
-            )
-            .collect();
-        Self { blocks, coarse: factors.into_iter().map(|(coarse, _)| coarse).collect() }
+        kernel.par_iter_mut().with_min_len(1024).zip(aggregate).for_each(|(block, &number)| {
+            let inverse = factors.get(number as usize).map(|(_, inverse)| inverse);
+            *block = inverse.map_or([[0.0; C]; F], |inverse| times(block, inverse));
+        });
+        Self { blocks: kernel, coarse: factors.into_iter().map(|(coarse, _)| coarse).collect() }
     }
 }
 

@@ -154,23 +154,13 @@ pub(crate) fn for_each_row<T: Send>(starts: &[u32], values: &mut [T], act: impl 
     for_each_row_with(starts, values, || (), |(), row, values| act(row, values));
 }
 
-fn for_each_row_with<T: Send, S>(
+pub(super) fn for_each_row_with<T: Send, S>(
     starts: &[u32],
     values: &mut [T],
     scratch: impl Fn() -> S + Sync,
     act: impl Fn(&mut S, usize, &mut [T]) + Sync,
 ) {
-    const ROWS: usize = 2048;
-    let rows = starts.len() - 1;
-    let mut chunks = Vec::with_capacity(rows / ROWS + 1);
-    let mut rest = values;
-    for first in (0..rows).step_by(ROWS) {
-        let last = (first + ROWS).min(rows);
-        let (chunk, tail) = rest.split_at_mut((starts[last] - starts[first]) as usize);
-        chunks.push((first..last, chunk));
-        rest = tail;
-    }
-    chunks.into_par_iter().for_each(|(range, mut chunk)| {
+    chunks_of_rows(starts, values, 2048).into_par_iter().for_each(|(range, mut chunk)| {
         let mut scratch = scratch();
         for row in range {
             let (values, tail) = chunk.split_at_mut((starts[row + 1] - starts[row]) as usize);
@@ -178,4 +168,22 @@ fn for_each_row_with<T: Send, S>(
             chunk = tail;
         }
     });
+}
+
+/// Runs of so many rows, each with its values.
+pub(super) fn chunks_of_rows<'a, T>(
+    starts: &[u32],
+    values: &'a mut [T],
+    rows_per_chunk: usize,
+) -> Vec<(Range<usize>, &'a mut [T])> {
+    let rows = starts.len() - 1;
+    let mut chunks = Vec::with_capacity(rows / rows_per_chunk + 1);
+    let mut rest = values;
+    for first in (0..rows).step_by(rows_per_chunk) {
+        let last = (first + rows_per_chunk).min(rows);
+        let (chunk, tail) = rest.split_at_mut((starts[last] - starts[first]) as usize);
+        chunks.push((first..last, chunk));
+        rest = tail;
+    }
+    chunks
 }

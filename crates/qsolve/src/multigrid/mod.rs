@@ -4,8 +4,9 @@
 //! aggregates, which carry a given near-kernel (what the smoother does not see: constants for a Laplacian; for a system with two
 //! unknowns a row, both translations and the rotation) to the next level, through basis functions that one Jacobi step smooths.
 //!
-//! All levels are in double precision: where rows differ by 1e8, as where a map is squeezed, sums over aggregates cancel, and
-//! in single precision a coarse matrix of such a system was no longer positive definite.
+//! The matrices of all levels are in double precision: where rows differ by 1e8, as where a map is squeezed, sums over aggregates
+//! cancel, and in single precision a coarse matrix of such a system was no longer positive definite. What carries from level to
+//! level is in single precision.
 //!
 //! Where blocks stand is found once; new values of the same pattern cost a fraction of it ([`Multigrid::refresh`]). The same
 //! input gives the same bits for any number of threads.
@@ -16,10 +17,12 @@
 mod aggregate;
 mod block;
 mod coarsest;
+mod galerkin;
 mod kernel;
 mod level;
 mod matrix;
 mod pattern;
+mod prolongation;
 mod smoother;
 
 #[cfg(test)]
@@ -85,10 +88,10 @@ impl<const F: usize, const C: usize> Multigrid<F, C> {
     /// [`SolveError::WrongRightHandSide`] when `kernel` has another number of rows; [`SolveError::TooLarge`].
     pub fn new(
         matrix: BlockMatrix<F>,
-        kernel: &[[[f64; C]; F]],
+        kernel: Vec<[[f64; C]; F]>,
         options: MultigridOptions,
     ) -> Result<Self, SolveError> {
-        check_kernel(&matrix, kernel)?;
+        check_kernel(&matrix, &kernel)?;
         let mut finest = Level::new(matrix, options.strength);
         let mut matrix = finest.coarse_zeros()?;
         let mut kernel = finest.refresh(kernel, &mut matrix)?;
@@ -100,7 +103,7 @@ impl<const F: usize, const C: usize> Multigrid<F, C> {
             rows = matrix.rows();
             let mut level: Level<C, C> = Level::new(matrix, strength);
             matrix = level.coarse_zeros()?;
-            kernel = level.refresh(&kernel, &mut matrix)?;
+            kernel = level.refresh(kernel, &mut matrix)?;
             coarser.push(level);
         }
         let coarsest = Coarsest::new(matrix, options.shift)?;
@@ -132,15 +135,15 @@ impl<const F: usize, const C: usize> Multigrid<F, C> {
     ///
     /// # Errors
     /// As [`Multigrid::new`]. The hierarchy is of no use then.
-    pub fn refresh(&mut self, kernel: &[[[f64; C]; F]]) -> Result<(), SolveError> {
-        check_kernel(&self.finest.matrix, kernel)?;
+    pub fn refresh(&mut self, kernel: Vec<[[f64; C]; F]>) -> Result<(), SolveError> {
+        check_kernel(&self.finest.matrix, &kernel)?;
         let Self { finest, coarser, coarsest, .. } = self;
         let next = coarser.first_mut().map_or(&mut coarsest.matrix, |level| &mut level.matrix);
         let mut kernel = finest.refresh(kernel, next)?;
         let mut rest = coarser.as_mut_slice();
         while let Some((level, further)) = rest.split_first_mut() {
             let next = further.first_mut().map_or(&mut coarsest.matrix, |level| &mut level.matrix);
-            kernel = level.refresh(&kernel, next)?;
+            kernel = level.refresh(kernel, next)?;
             rest = further;
         }
         coarsest.refresh(self.options.shift)
@@ -232,12 +235,12 @@ fn cycle<const F: usize, const C: usize>(
     let Some((next, further)) = below.split_first_mut() else { return };
     level.smoother.forward(&level.matrix, &at.b, &mut at.x);
     level.smoother.residual(&level.matrix, &at.x, &mut at.r);
-    level.restrict(&at.r, &mut next.b);
+    level.prolongation.restrict(&at.r, &mut next.b);
     match coarser.split_first() {
         Some((coarse, coarser)) => cycle(coarse, coarser, coarsest, next, further),
         None => coarsest.solve(&next.b, &mut next.x),
     }
-    level.prolong(&next.x, &mut at.x);
+    level.prolongation.prolong(&next.x, &mut at.x);
     at.r.copy_from_slice(&at.x);
     level.smoother.backward(&level.matrix, &at.b, &at.r, &mut at.x);
 }

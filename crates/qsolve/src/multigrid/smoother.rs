@@ -45,29 +45,34 @@ impl<const F: usize> Smoother<F> {
     }
 
     pub(super) fn invert(&mut self, matrix: &BlockMatrix<F>) -> Result<(), SolveError> {
-        let inverted: Vec<Option<(Block<F, F>, f64)>> = (0..matrix.rows())
-            .into_par_iter()
-            .with_min_len(MIN_ROWS)
-            .map(|row| {
-                let excess = self.excess_of(matrix, row);
-                let mut diagonal = matrix.diagonal(row);
-                (0..F).for_each(|k| diagonal[k][k] += excess);
-                let trace: f64 = (0..F).map(|k| diagonal[k][k]).sum();
-                SINGULAR_SHIFTS.iter().find_map(|shift| {
-                    let mut shifted = diagonal;
-                    (0..F).for_each(|k| shifted[k][k] += shift * trace);
-                    inverse(&shifted).map(|inverse| (inverse, excess + shift * trace))
-                })
-            })
-            .collect();
-        self.inverse.clear();
-        self.excess.clear();
-        for (row, inverted) in inverted.into_iter().enumerate() {
-            let (inverse, excess) = inverted.ok_or(SolveError::NotPositiveDefinite { row: Some(row) })?;
-            self.inverse.push(inverse);
-            self.excess.push(excess);
-        }
-        Ok(())
+        let mut inverses = std::mem::take(&mut self.inverse);
+        let mut excess = std::mem::take(&mut self.excess);
+        inverses.resize(matrix.rows(), [[0.0; F]; F]);
+        excess.resize(matrix.rows(), 0.0);
+        let rows = inverses.par_iter_mut().zip(&mut excess).with_min_len(MIN_ROWS).enumerate();
+        let singular = rows.filter_map(|(row, (inverse, excess))| match self.inverted(matrix, row) {
+            Some(inverted) => {
+                (*inverse, *excess) = inverted;
+                None
+            }
+            None => Some(row),
+        });
+        let singular = singular.min();
+        (self.inverse, self.excess) = (inverses, excess);
+        singular.map_or(Ok(()), |row| Err(SolveError::NotPositiveDefinite { row: Some(row) }))
+    }
+
+    /// The inverse of a row's diagonal with its excess, and the excess.
+    fn inverted(&self, matrix: &BlockMatrix<F>, row: usize) -> Option<(Block<F, F>, f64)> {
+        let excess = self.excess_of(matrix, row);
+        let mut diagonal = matrix.diagonal(row);
+        (0..F).for_each(|k| diagonal[k][k] += excess);
+        let trace: f64 = (0..F).map(|k| diagonal[k][k]).sum();
+        SINGULAR_SHIFTS.iter().find_map(|shift| {
+            let mut shifted = diagonal;
+            (0..F).for_each(|k| shifted[k][k] += shift * trace);
+            inverse(&shifted).map(|inverse| (inverse, excess + shift * trace))
+        })
     }
 
     fn excess_of(&self, matrix: &BlockMatrix<F>, row: usize) -> f64 {

@@ -24,6 +24,7 @@ use crate::interrupt::Phase;
 use crate::islands::{refuse_repairs, trades};
 use crate::json_text;
 use crate::keep;
+use crate::layout_args::SeamSource;
 use crate::output::{Outputs, Target, together};
 use crate::page_report::{self, Source};
 use crate::pins;
@@ -190,10 +191,11 @@ fn refuse_clashes(
         );
     }
     let inputs = [Some(&arguments.input), arguments.map.boundary_uv.as_ref(), arguments.pins.as_ref()];
-    if inputs.into_iter().filter(|&path| dash(path)).count() > 1 {
+    let seams = arguments.layout.seams.iter().map(SeamSource::file);
+    if inputs.into_iter().chain(seams).filter(|&path| dash(path)).count() > 1 {
         return refuse(
             "standard input cannot be read twice",
-            "name a file for the mesh, for --boundary-uv and for --pins",
+            "name a file for the mesh, for --boundary-uv, for --pins and for --seams",
         );
     }
     if arguments.json && simplified == Some(&Target::Stdout) {

@@ -292,6 +292,7 @@ impl Job<'_> {
         notes.push(method_line(map, Some(self.arguments.q)));
         notes.extend(done_lines(
             record(result),
+            result.rounding.as_ref(),
             &result.repairs,
             result.seams,
             result.layout.as_ref(),
@@ -392,6 +393,7 @@ impl Job<'_> {
             worst_faces,
             options: options_json(&self.options.map, arguments.map.boundary_uv.as_deref()),
             record: record(result),
+            rounding: result.rounding.as_ref(),
             repairs: &result.repairs,
             seams: result.seams,
             trade: trades(result.seams, &result.islands),

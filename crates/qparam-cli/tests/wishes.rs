@@ -78,7 +78,7 @@ fn impossible_wishes_are_refused_with_the_place() {
         (
             &["--boundary", "fixed", "--boundary-uv", "dent.txt"][..],
             5,
-            "face 1 lies with three vertices on the boundary, which does not turn left at vertex 1",
+            "face 1 (line 31) lies with three vertices on the boundary, which does not turn left at vertex 1",
         ),
     ] {
         let run = folder.qparam(&[&["unwrap", "in.obj"], arguments].concat()).code(code);

@@ -239,7 +239,7 @@ fn notes(arguments: &UnwrapArgs, typed: &[String]) -> Vec<String> {
             return Some("only direct reads it");
         }
         if minimises && ["backend", "residual-bound", "max-iterations"].contains(&name) {
-            return Some("each Newton system is factorized");
+            return Some("Newton systems have solvers of their own");
         }
         if method != MethodChoice::Paper && PAPER_ONLY.contains(&name) {
             return Some("the method is not `paper`");

@@ -33,7 +33,7 @@ use crate::certificate::{Certificate, judge};
 use crate::direct::Continuation;
 use crate::distortion::Distortion;
 use crate::parameterize::RunRecord;
-use crate::rounding::{LISTED, to_precision};
+use crate::rounding::{LISTED, Rounding, to_precision};
 
 /// UVs of any polygons, and how they came about.
 #[derive(Clone, Debug)]
@@ -57,6 +57,8 @@ pub struct Atlas {
     pub layout: Option<Layout>,
     /// The faces that are turned over in their chart, ascending.
     pub turned_faces: Vec<u32>,
+    /// What rounding to single precision did to the whole, when it was asked for; in the numbers of the polygons.
+    pub rounding: Option<Rounding>,
 }
 
 impl Atlas {
@@ -234,25 +236,27 @@ fn finish(
         return Err(AtlasError::OutOfRange);
     }
     let turned_faces = measures::turned_faces(&solved);
-    let (distortion, certificate) = match &solved[..] {
+    let (distortion, certificate, rounding) = match &solved[..] {
         // Nobody moved it since it was measured.
-        [Solved { distortion: Some(distortion), certificate: Some(certificate), chart, .. }]
+        [Solved { distortion: Some(distortion), certificate: Some(certificate), chart, record, .. }]
             if layout.is_none() && turned_faces.is_empty() && options.keep.is_empty() =>
         {
-            (distortion.clone(), measures::in_source_numbers(certificate, &chart.mesh))
+            let certificate = measures::in_source_numbers(certificate, &chart.mesh);
+            (distortion.clone(), certificate, record.rounding.clone())
         }
         _ => {
             let (turned, mut turned_uv) = measures::oriented(polygons, &turned_faces, &uv);
-            let precision = options.map.precision;
-            to_precision(turned.view(), &mut turned_uv, precision).map_err(AtlasError::Options)?;
+            let rounding = to_precision(turned.view(), &mut turned_uv, options.map.precision)
+                .map_err(AtlasError::of_the_whole)?;
             (_, uv) = measures::oriented(polygons, &turned_faces, &turned_uv);
-            judge(turned.view(), &turned_uv, LISTED)?
+            let (distortion, certificate) = judge(turned.view(), &turned_uv, LISTED)?;
+            (distortion, certificate, rounding)
         }
     };
     tell(observer, "measure", 1.0)?;
     let seams = measures::seam_length(polygons, &solved);
     let (islands, charts) = solved.into_par_iter().map(Solved::island).unzip();
-    Ok(Atlas { uv, islands, charts, distortion, certificate, repairs, seams, layout, turned_faces })
+    Ok(Atlas { uv, islands, charts, distortion, certificate, repairs, seams, layout, turned_faces, rounding })
 }
 
 /// The UVs of all charts at the corners of the polygons.

@@ -142,9 +142,10 @@ pub fn lay_out(shapes: &[Shape<'_>], scale: f64, width: f64, options: &PackOptio
     let height: f64 = boxes.iter().map(|[low, high]| scale * (high - low).y + margin).sum();
     let side = f64::from(cells(shapes.len())).min((MOST_CELLS * width / height).sqrt()).max(16.0) as u32;
     let unit = width / f64::from(side);
-    // So slender that no grid fits it: one above the other.
+    // So slender that no grid fits it, or an island of it: one above the other.
     let needed = height / unit * f64::from(side);
-    if needed.is_nan() || needed > 2.0 * MOST_CELLS {
+    let highest = (size(1) + margin) / unit + 2.0;
+    if needed.is_nan() || needed > 2.0 * MOST_CELLS || highest > cover::LONGEST {
         return stack(&boxes, scale, margin, options);
     }
     let places = place(shapes, &boxes, scale / unit, margin / unit, side + 2, None);

@@ -99,8 +99,21 @@ pub fn worst_faces(
 ) -> Result<Vec<WorstFace>, MeasureError> {
     let worst = measure_worst_faces(mesh.view(), uv, count)?;
     let explain = |(index, measure): (usize, FaceMeasure)| {
-        let face = FaceId::from_index(index);
-        WorstFace {
+        WorstFace::new(mesh, FaceId::from_index(index), &measure, circumstances)
+    };
+    Ok(worst.into_iter().map(explain).collect())
+}
+
+impl WorstFace {
+    /// A face of `mesh` with its errors and what forces them; for charts, whose faces are measured together.
+    #[must_use]
+    pub fn new(
+        mesh: &QuadMesh,
+        face: FaceId,
+        measure: &FaceMeasure,
+        circumstances: &Circumstances<'_>,
+    ) -> Self {
+        Self {
             face,
             place: center(mesh, face),
             symmetric_dirichlet: Some(measure.symmetric_dirichlet).filter(|energy| energy.is_finite()),
@@ -108,8 +121,7 @@ pub fn worst_faces(
             area_ratio: measure.area_ratio,
             causes: causes(mesh, face, circumstances),
         }
-    };
-    Ok(worst.into_iter().map(explain).collect())
+    }
 }
 
 /// The order in which [`worst_faces`] names faces, for polygons of any kind.
@@ -128,14 +140,12 @@ pub fn rank_faces(measures: &FaceMeasures, count: usize) -> Vec<usize> {
 }
 
 /// The centre of a face in space.
-#[must_use]
-pub fn center(mesh: &QuadMesh, face: FaceId) -> Vec3 {
+fn center(mesh: &QuadMesh, face: FaceId) -> Vec3 {
     mesh.face_vertices(face).map(|vertex| mesh.position(vertex) / mesh.degree(face) as f64).sum()
 }
 
 /// What forces the errors of `face`, the plainest first. Never empty.
-#[must_use]
-pub fn causes(mesh: &QuadMesh, face: FaceId, circumstances: &Circumstances<'_>) -> Vec<Cause> {
+fn causes(mesh: &QuadMesh, face: FaceId, circumstances: &Circumstances<'_>) -> Vec<Cause> {
     let mut causes = Vec::new();
     if circumstances.exempt.contains(&face) {
         causes.push(Cause::Exempt);

@@ -182,3 +182,18 @@ fn extreme_sizes_have_places() {
     let (polygons, uv) = layout(&towers, &packed);
     assert!(certify(polygons.view(), &uv, 1).unwrap().holds, "one above the other: {packed:?}");
 }
+
+/// Strips of fewer rows than a cover may have, and of more, though a grid has room for them: they lie apart.
+#[test]
+fn islands_of_extreme_aspect_do_not_overlap() {
+    for height in [60.0, 30_000.0, 32_000.0, 70_000.0] {
+        let strip = cells(1, 40, &[true], 1.0);
+        let stretched: Vec<Vec2> = strip.1.iter().map(|p| Vec2::new(p.x, p.y * height / 40.0)).collect();
+        let strips = vec![(strip.0, stretched); 2];
+        let shapes: Vec<Shape<'_>> = strips.iter().map(|(face_start, uv)| Shape { face_start, uv }).collect();
+        let packed = lay_out(&shapes, 1.0, 1.0, &PackOptions::default());
+        let (polygons, uv) = layout(&strips, &packed);
+        let certificate = certify(polygons.view(), &uv, 1).unwrap();
+        assert!(certificate.holds, "{height}: {certificate}");
+    }
+}

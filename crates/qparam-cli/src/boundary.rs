@@ -1,5 +1,6 @@
 //! Positions for a fixed boundary: from an OBJ with UVs, or from a list `vertex u v`.
 
+use std::collections::HashMap;
 use std::io::Read;
 use std::path::Path;
 
@@ -79,6 +80,8 @@ fn from_obj(name: &str, bytes: Vec<u8>, given: &mut [Option<Vec2>]) -> Result<()
 
 pub(crate) fn from_list(name: &str, bytes: &[u8], given: &mut [Option<Vec2>]) -> Result<(), Failure> {
     let text = String::from_utf8_lossy(bytes);
+    // Where each vertex stands, from 1.
+    let mut lines: HashMap<usize, usize> = HashMap::new();
     for (index, line) in text.lines().enumerate() {
         let line = line.split('#').next().unwrap_or_default();
         let refuse = |why: String| {
@@ -93,12 +96,15 @@ pub(crate) fn from_list(name: &str, bytes: &[u8], given: &mut [Option<Vec2>]) ->
             }
             return refuse(format!("expected three values, found {}", fields.len()));
         };
-        let number = vertex.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
-        let Some(slot) = number.and_then(|index| given.get_mut(index)) else {
+        let number = vertex.parse::<usize>().ok().filter(|number| (1..=given.len()).contains(number));
+        let Some(number) = number else {
             return refuse(format!("`{vertex}` is no vertex of the mesh, which has {}", given.len()));
         };
+        if let Some(before) = lines.insert(number, index + 1) {
+            return refuse(format!("vertex {number} has a position already, from line {before}"));
+        }
         match (u.parse::<f64>(), v.parse::<f64>()) {
-            (Ok(u), Ok(v)) if u.is_finite() && v.is_finite() => *slot = Some(Vec2::new(u, v)),
+            (Ok(u), Ok(v)) if u.is_finite() && v.is_finite() => given[number - 1] = Some(Vec2::new(u, v)),
             _ => return refuse(format!("`{u} {v}` is no position")),
         }
     }

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use clap::parser::ValueSource;
-use clap::{ArgMatches, CommandFactory, FromArgMatches, ValueEnum};
+use clap::{Arg, ArgMatches, Command, CommandFactory, FromArgMatches, ValueEnum};
 
 use crate::args::Cli;
 use crate::choices::PresetChoice;
@@ -40,98 +40,111 @@ impl From<clap::Error> for ParseFailure {
     }
 }
 
-/// Options that exclude each other: naming one on the command line silences the other in the file.
-const RIVALS: &[[&str; 2]] = &[["remove-fraction", "remove-below"], ["json", "quiet"]];
-/// The commands that make maps; the file's keys are the options of the first.
+/// The commands that make maps, whose options are the keys of the file.
 const MAPPING: [&str; 2] = ["unwrap", "sweep"];
-/// Options that mean something else, or nothing, to `sweep`.
-const NOT_FOR_SWEEP: &[&str] = &[
-    "q",
-    "worst",
-    "json",
-    "quiet",
-    "uv-precision",
-    "seams",
-    "max-stretch",
-    "strict",
-    "density",
-    "up",
-    "resolution",
-    "margin",
-    "no-pack",
-];
+/// Options that `sweep` has, too, but that mean something else there: several values, and one report of many.
+const OTHER_IN_SWEEP: [&str; 2] = ["q", "json"];
 /// Options about one run, not about habits.
-const NOT_IN_FILES: &[&str] =
-    &["output", "simplified", "pin", "pins", "report", "report-q", "config", "no-config", "help", "version"];
+const NOT_IN_FILES: &[&str] = &[
+    "output",
+    "simplified",
+    "pin",
+    "pins",
+    "report",
+    "report-q",
+    "csv",
+    "config",
+    "no-config",
+    "help",
+    "version",
+];
+
+/// A command that reads the file, with what was typed for it.
+struct Reader<'a> {
+    command: Command,
+    matches: &'a ArgMatches,
+    /// The long names of the options that the caller typed.
+    typed: Vec<String>,
+}
+
+impl<'a> Reader<'a> {
+    fn new(name: &str, matches: &'a ArgMatches) -> Option<Self> {
+        let command = subcommand(name).filter(|_| MAPPING.contains(&name))?;
+        let is_typed = |arg: &&Arg| {
+            let id = arg.get_id().as_str();
+            matches.try_contains_id(id).is_ok() && matches.value_source(id) == Some(ValueSource::CommandLine)
+        };
+        let typed = command.get_arguments().filter(is_typed).filter_map(Arg::get_long);
+        let typed = typed.map(str::to_owned).collect();
+        Some(Self { command, matches, typed })
+    }
+
+    fn option(&self, name: &str) -> Option<&Arg> {
+        option(&self.command, name)
+    }
+
+    /// Whether the command has this option, with the meaning that it has in the file.
+    fn reads(&self, name: &str) -> bool {
+        let is_other = self.command.get_name() == "sweep" && OTHER_IN_SWEEP.contains(&name);
+        self.option(name).is_some() && !is_other
+    }
+
+    /// Whether something typed says the same, or excludes it.
+    fn silences(&self, name: &str) -> bool {
+        let excludes = |a: &Arg, b: &Arg| self.command.get_arg_conflicts_with(a).contains(&b);
+        let Some(option) = self.option(name) else { return false };
+        let mut typed = self.typed.iter().filter_map(|name| self.option(name));
+        typed.any(|typed| typed == option || excludes(typed, option) || excludes(option, typed))
+    }
+}
+
+fn subcommand(name: &str) -> Option<Command> {
+    Cli::command().find_subcommand(name).cloned()
+}
+
+fn option<'a>(command: &'a Command, name: &str) -> Option<&'a Arg> {
+    command.get_arguments().find(|arg| arg.get_long() == Some(name))
+}
 
 /// Parses the command line, with defaults from a configuration file.
 pub(crate) fn parse(mut arguments: Vec<OsString>, environment: &Environment) -> Result<Parsed, ParseFailure> {
     let matches = Cli::command().try_get_matches_from(&arguments)?;
-    let mut typed = Vec::new();
-    if let Some((name, map)) = matches.subcommand().filter(|(name, _)| MAPPING.contains(name)) {
-        typed = typed_options(map);
-        let left_out = if name == "sweep" { NOT_FOR_SWEEP } else { &[] };
-        let mut defaults = defaults(map, &typed, left_out, environment).map_err(ParseFailure::Config)?;
-        apply_preset(map, &typed, left_out, &mut defaults);
+    let reader = matches.subcommand().and_then(|(name, matches)| Reader::new(name, matches));
+    if let Some(reader) = &reader {
+        let mut defaults = defaults(reader, environment).map_err(ParseFailure::Config)?;
+        apply_preset(reader, &mut defaults);
         // The subcommand comes second: nothing may stand before it but the program.
         arguments.splice(2..2, defaults.into_iter().map(|(_, argument)| argument));
     }
+    let typed = reader.map(|reader| reader.typed).unwrap_or_default();
     let matches = Cli::command().try_get_matches_from(&arguments)?;
     Ok(Parsed { cli: Cli::from_arg_matches(&matches)?, typed })
 }
 
-fn typed_options(unwrap: &ArgMatches) -> Vec<String> {
-    let known = known_options();
-    unwrap
-        .ids()
-        .filter(|id| unwrap.value_source(id.as_str()) == Some(ValueSource::CommandLine))
-        // Argument ids are the field names of `UnwrapArgs`.
-        .map(|id| id.as_str().replace('_', "-"))
-        .filter(|name| known.contains(name))
-        .collect()
-}
-
 /// What `--preset` stands for, as far as it is not said otherwise. Typed, it silences the file; in the file, whatever else
 /// the file says comes first.
-fn apply_preset(
-    map: &ArgMatches,
-    typed: &[String],
-    left_out: &[&str],
-    defaults: &mut Vec<(String, OsString)>,
-) {
+fn apply_preset(reader: &Reader<'_>, defaults: &mut Vec<(String, OsString)>) {
     let in_file = defaults.iter().find(|(key, _)| key == "preset");
     let in_file = in_file.and_then(|(_, argument)| argument.to_str()?.strip_prefix("--preset="));
-    let typed_preset = map.get_one::<PresetChoice>("preset").copied();
+    let typed_preset = reader.matches.get_one::<PresetChoice>("preset").copied();
     let Some(choice) = typed_preset.or_else(|| PresetChoice::from_str(in_file?, false).ok()) else { return };
     let settings = choice.arguments();
     if typed_preset.is_some() {
         defaults.retain(|(key, _)| !settings.iter().any(|(name, _)| name == key));
     }
     for (name, value) in settings {
-        let is_said = typed.iter().any(|key| key == name) || defaults.iter().any(|(key, _)| key == name);
-        if !is_said && !left_out.contains(&name) {
+        let is_said = reader.silences(name) || defaults.iter().any(|(key, _)| key == name);
+        if !is_said && reader.reads(name) {
             defaults.push((name.to_owned(), format!("--{name}={value}").into()));
         }
     }
 }
 
-/// The long names of the options of `unwrap`.
-fn known_options() -> Vec<String> {
-    let command = Cli::command();
-    let unwrap = command.find_subcommand("unwrap").into_iter();
-    unwrap.flat_map(clap::Command::get_arguments).filter_map(clap::Arg::get_long).map(str::to_owned).collect()
-}
-
-fn defaults(
-    unwrap: &ArgMatches,
-    typed: &[String],
-    left_out: &[&str],
-    environment: &Environment,
-) -> Result<Vec<(String, OsString)>, Failure> {
-    if unwrap.get_flag("no_config") {
+fn defaults(reader: &Reader<'_>, environment: &Environment) -> Result<Vec<(String, OsString)>, Failure> {
+    if reader.matches.get_flag("no_config") {
         return Ok(Vec::new());
     }
-    let (path, text) = match unwrap.get_one::<PathBuf>("config") {
+    let (path, text) = match reader.matches.get_one::<PathBuf>("config") {
         Some(path) => (path.clone(), read(path)?),
         None => match find(environment)? {
             Some(found) => found,
@@ -145,15 +158,10 @@ fn defaults(
         )
         .help("write one `name = value` a line, for example `q = 0.8`")
     })?;
-    let known = known_options();
     let mut arguments = Vec::new();
     for (key, value) in &table {
-        let argument = argument(key, value, &known, &path)?;
-        let silenced = |name: &String| {
-            name == key
-                || RIVALS.iter().any(|pair| pair.contains(&name.as_str()) && pair.contains(&key.as_str()))
-        };
-        if !left_out.contains(&key.as_str()) && !typed.iter().any(silenced) {
+        let argument = argument(key, value, &path)?;
+        if reader.reads(key) && !reader.silences(key) {
             arguments.extend(argument.map(|argument| (key.clone(), argument)));
         }
     }
@@ -190,20 +198,17 @@ fn read(path: &Path) -> Result<String, Failure> {
 }
 
 /// One entry as an argument; checked alone, so that the message can name the file.
-fn argument(
-    key: &str,
-    value: &toml::Value,
-    known: &[String],
-    path: &Path,
-) -> Result<Option<OsString>, Failure> {
+fn argument(key: &str, value: &toml::Value, path: &Path) -> Result<Option<OsString>, Failure> {
     let refuse = |why: String| Failure::new(Exit::Usage, format!("{}: `{key}`: {why}", path.display()));
     if NOT_IN_FILES.contains(&key) {
         return Err(refuse("belongs on the command line, not in a configuration file".into()));
     }
-    if !known.iter().any(|name| name == key) {
+    let Some(command) =
+        MAPPING.into_iter().find(|name| subcommand(name).is_some_and(|c| option(&c, key).is_some()))
+    else {
         return Err(refuse("there is no such option".into())
             .help("keys are the long options of `qparam unwrap --help`, without the dashes"));
-    }
+    };
     let argument = match value {
         toml::Value::Boolean(true) => format!("--{key}"),
         toml::Value::Boolean(false) => return Ok(None),
@@ -212,7 +217,7 @@ fn argument(
         toml::Value::Float(number) => format!("--{key}={number}"),
         other => return Err(refuse(format!("a value of type {} is none for an option", other.type_str()))),
     };
-    match Cli::command().try_get_matches_from(["qparam", "unwrap", "-", &argument]) {
+    match Cli::command().try_get_matches_from(["qparam", command, "-", &argument]) {
         Ok(_) => Ok(Some(argument.into())),
         Err(error) => {
             let text = error.to_string();
@@ -224,19 +229,23 @@ fn argument(
 
 #[cfg(test)]
 mod tests {
-    use super::{Environment, ParseFailure, Parsed, parse};
-    use crate::args::{Command, UnwrapArgs};
+    use super::{Environment, MAPPING, NOT_IN_FILES, ParseFailure, Parsed, parse, subcommand};
+    use crate::args::{Cli, Command, UnwrapArgs};
 
     fn with_file(text: &str, arguments: &[&str]) -> Result<UnwrapArgs, String> {
+        match parsed(text, &[&["unwrap", "in.obj"], arguments].concat())?.command {
+            Command::Unwrap(unwrap) => Ok(unwrap),
+            _ => unreachable!(),
+        }
+    }
+
+    fn parsed(text: &str, arguments: &[&str]) -> Result<Cli, String> {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("qparam.toml"), text).unwrap();
         let environment = Environment { working_directory: folder.path().to_owned(), config_home: None };
-        let line = [&["qparam", "unwrap", "in.obj"], arguments].concat();
+        let line = [&["qparam"], arguments].concat();
         match parse(line.into_iter().map(Into::into).collect(), &environment) {
-            Ok(Parsed { cli, .. }) => match cli.command {
-                Command::Unwrap(unwrap) => Ok(unwrap),
-                _ => unreachable!(),
-            },
+            Ok(Parsed { cli, .. }) => Ok(cli),
             Err(ParseFailure::Config(failure)) => Err(failure.message),
             Err(ParseFailure::Clap(error)) => Err(error.to_string()),
         }
@@ -254,6 +263,68 @@ mod tests {
         let unwrap =
             with_file("remove-fraction = 0.1\njson = true", &["--remove-below=2", "--quiet"]).unwrap();
         assert_eq!((unwrap.map.remove_below, unwrap.json, unwrap.quiet), (Some(2.0), false, true));
+    }
+
+    /// Every option with a value that it takes, but for those that files may not have: name, value, and whether it is typed without one.
+    fn all_options() -> Vec<(String, String, bool)> {
+        let unwrap = subcommand("unwrap").unwrap();
+        let options = unwrap
+            .get_arguments()
+            .filter(|arg| arg.get_long().is_some_and(|name| !NOT_IN_FILES.contains(&name)));
+        options
+            .map(|arg| {
+                let name = arg.get_long().unwrap().to_owned();
+                let named = arg.get_possible_values().first().map(|value| value.get_name().to_owned());
+                let default =
+                    arg.get_default_values().first().map(|value| value.to_str().unwrap().to_owned());
+                let is_flag = !arg.get_action().takes_values();
+                (name, named.or(default).unwrap_or_else(|| "2".to_owned()), is_flag)
+            })
+            .collect()
+    }
+
+    fn entry((name, value, is_flag): &(String, String, bool)) -> String {
+        if *is_flag { format!("{name} = true") } else { format!("{name} = \"{value}\"") }
+    }
+
+    fn typed((name, value, is_flag): &(String, String, bool)) -> String {
+        if *is_flag { format!("--{name}") } else { format!("--{name}={value}") }
+    }
+
+    /// What one command has no option for says nothing to it; what no command has an option for is an error to all.
+    #[test]
+    fn every_key_is_read_by_every_command_that_makes_maps() {
+        let options = all_options();
+        assert!(options.len() > 40, "{options:?}");
+        for command in MAPPING {
+            for option in &options {
+                let text = entry(option);
+                assert!(
+                    parsed(&text, &[command, "in.obj"]).is_ok(),
+                    "{command}, {text}: {:?}",
+                    parsed(&text, &[command, "in.obj"])
+                );
+            }
+            assert!(parsed("colour = 1", &[command, "in.obj"]).is_err());
+        }
+    }
+
+    /// Whatever is typed, no line of the file contradicts it.
+    #[test]
+    fn no_key_conflicts_with_what_is_typed() {
+        let mut options = all_options();
+        for one_run in ["pin=1=0,0", "pins=FILE", "report=PAGE.html"] {
+            let (name, value) = one_run.split_once('=').unwrap();
+            options.push((name.to_owned(), value.to_owned(), false));
+        }
+        for option in &options {
+            for other in all_options() {
+                let text = entry(&other);
+                let typed = typed(option);
+                let found = with_file(&text, &[&typed]);
+                assert!(found.is_ok(), "{typed} with {text}: {:?}", found.err());
+            }
+        }
     }
 
     /// A preset is a set of defaults: what is typed beside it wins, and what the file says gives way to a typed one.
@@ -282,6 +353,7 @@ mod tests {
             ("q = 2", "`q`: invalid value '2' for '--q <0..1>': expected a number between 0 and 1"),
             ("method = [1]", "`method`: a value of type array"),
             ("output = 'x.obj'", "`output`: belongs on the command line"),
+            ("csv = 'x.csv'", "`csv`: belongs on the command line"),
             ("q = ", "qparam.toml:1:5 is no valid TOML"),
             ("json = 3", "`json`: unexpected value '3' for '--json'"),
         ] {

@@ -53,7 +53,24 @@ Exit codes:
 
 #[cfg(test)]
 mod tests {
+    use clap::CommandFactory;
+
     use super::{Exit, TABLE};
+    use crate::args::Cli;
+
+    /// Whoever shows a table of exit codes shows this one.
+    #[test]
+    fn every_help_has_this_table() {
+        for command in Cli::command().get_subcommands_mut() {
+            for help in [command.render_help(), command.render_long_help()] {
+                let text = help.to_string();
+                assert!(text.contains(TABLE) || !text.contains("Exit codes"), "{text}");
+            }
+        }
+        let unwrap =
+            Cli::command().find_subcommand_mut("unwrap").map(|unwrap| unwrap.render_long_help().to_string());
+        assert!(unwrap.is_some_and(|text| text.contains(TABLE) && text.contains("Configuration file")));
+    }
 
     /// `--help` names every code there is.
     #[test]

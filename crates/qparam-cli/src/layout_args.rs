@@ -69,6 +69,16 @@ pub(crate) enum SeamSource {
     File(PathBuf),
 }
 
+impl SeamSource {
+    /// The file that they are listed in.
+    pub(crate) fn file(&self) -> Option<&PathBuf> {
+        match self {
+            Self::File(path) => Some(path),
+            _ => None,
+        }
+    }
+}
+
 impl FromStr for SeamSource {
     type Err = String;
 

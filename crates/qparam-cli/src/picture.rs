@@ -24,6 +24,7 @@
 //! Guaranteed: quads are shown as the bilinear surfaces that they are, neighbours leave no gap, nothing is mirrored, and the
 //! picture is the same for any number of threads. Not guaranteed: the same last digit of a colour on every machine.
 
+mod bins;
 mod camera;
 mod canvas;
 pub mod color;

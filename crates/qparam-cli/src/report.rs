@@ -5,8 +5,8 @@ use qoptimize::qmesh::Repairs;
 use qoptimize::qmesh::obj::UvWriteSummary;
 use qoptimize::qsolve::SolveMethod;
 use qoptimize::{
-    BoundaryRepair, Certificate, DirectReport, Distortion, Island, RunRecord, ScaffoldEnd, StartMethod, Stop,
-    SymmetryReport,
+    BoundaryRepair, Certificate, DirectReport, Distortion, Island, Rounding, RunRecord, ScaffoldEnd,
+    StartMethod, Stop, SymmetryReport,
 };
 use serde::Serialize;
 
@@ -113,6 +113,8 @@ pub(crate) struct UnwrapReport<'a> {
     pub(crate) options: serde_json::Value,
     /// How the map came about; nothing when there are several islands.
     pub(crate) record: Option<&'a RunRecord>,
+    /// What rounding to single precision did, when it was asked for; faces in numbers from 0.
+    pub(crate) rounding: Option<&'a Rounding>,
     /// What had to be mended, in numbers from 0.
     pub(crate) repairs: &'a Repairs,
     /// What was cut.
@@ -136,7 +138,7 @@ pub(crate) fn unwrap_text(report: &UnwrapReport<'_>, method: &str, color: bool) 
     let mut text = report.input.line();
     text += &format!("{method}\n");
     let (layout, islands) = (report.layout.as_ref(), report.islands);
-    for line in done_lines(report.record, report.repairs, report.seams, layout, islands) {
+    for line in done_lines(report.record, report.rounding, report.repairs, report.seams, layout, islands) {
         text += &format!("  {line}\n");
     }
     text += "\n";
@@ -171,13 +173,17 @@ pub(crate) fn unwrap_text(report: &UnwrapReport<'_>, method: &str, color: bool) 
 /// What was mended, what ran, and how it was laid out, in sentences.
 pub(crate) fn done_lines(
     record: Option<&RunRecord>,
+    rounding: Option<&Rounding>,
     repairs: &Repairs,
     seams: SeamLength,
     layout: Option<&Layout>,
     islands: &[Island],
 ) -> Vec<String> {
-    let record = record.map(record_lines).unwrap_or_default();
-    repair_lines(repairs).into_iter().chain(record).chain(layout_lines(seams, layout, islands)).collect()
+    let mut lines = repair_lines(repairs);
+    lines.extend(record.map(record_lines).unwrap_or_default());
+    lines.extend(rounding.map(rounding_line));
+    lines.extend(layout_lines(seams, layout, islands));
+    lines
 }
 
 /// What ran, in sentences.
@@ -228,18 +234,20 @@ fn record_lines(record: &RunRecord) -> Vec<String> {
     if let Some(direct) = &record.direct {
         lines.extend(direct_lines(direct));
     }
-    if let Some(rounding) = &record.rounding {
-        let mut line = "rounded to single precision".to_owned();
-        if rounding.broken_faces > 0 {
-            line += &format!(
-                ": {} turned over, {} moved to other floats to mend that",
-                counted(rounding.broken_faces, "face"),
-                counted(rounding.moved_points, "point")
-            );
-        }
-        lines.push(line);
-    }
     lines
+}
+
+/// What rounding turned over, and what mended that.
+fn rounding_line(rounding: &Rounding) -> String {
+    let mut line = "rounded to single precision".to_owned();
+    if rounding.broken_faces > 0 {
+        line += &format!(
+            ": {} turned over, {} moved to other floats to mend that",
+            counted(rounding.broken_faces, "face"),
+            counted(rounding.moved_points, "point")
+        );
+    }
+    line
 }
 
 /// Start and descent, in sentences.

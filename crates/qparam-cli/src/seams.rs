@@ -1,9 +1,10 @@
 //! The seams that were asked for, as pairs of vertices.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use qoptimize::qcurv::seams::creases;
-use qoptimize::qmesh::{Seams, charts};
+use qoptimize::qmesh::{PolygonView, Seams, charts};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -61,28 +62,56 @@ fn of_file(path: &Path, input: &Input, io: &mut Streams<'_>) -> Result<Vec<[u32;
         failure.help("--seams takes auto, none, uv, angle:DEG, group, material, or a file of vertex numbers")
     })?;
     let text = String::from_utf8_lossy(&bytes);
-    let count = input.document.vertex_count();
+    let (view, edges) = (input.document.view(), edges(input.document.view()));
     let mut pairs = Vec::new();
     for (index, line) in text.lines().enumerate() {
-        let line = line.split('#').next().unwrap_or_default();
-        let refuse = |why: String| {
+        let walk = vertices(line, view.positions.len()).and_then(|walk| along(&walk, &edges));
+        pairs.extend(walk.map_err(|why| {
             Failure::new(Exit::Input, format!("{name}:{}: {why}", index + 1))
                 .help("write the numbers of neighbouring vertices on a line, counted from 1")
-        };
-        let mut before = None;
-        for field in line.split([' ', '\t', ',', '\r']).filter(|field| !field.is_empty()) {
-            let number = field.parse::<usize>().ok().filter(|number| (1..=count).contains(number));
-            let Some(number) = number else {
-                return Err(refuse(format!("`{field}` is no vertex of the mesh, which has {count}")));
-            };
-            let vertex = (number - 1) as u32;
-            if let Some(before) = before.replace(vertex) {
-                pairs.push([before, vertex]);
-            }
-        }
-        if before.is_some() && !line.trim().contains([' ', '\t', ',']) {
-            return Err(refuse("a seam needs two vertices at least".into()));
-        }
+        })?);
     }
     Ok(pairs)
+}
+
+/// The vertices of a line, from 0, of `count` that there are.
+fn vertices(line: &str, count: usize) -> Result<Vec<u32>, String> {
+    let line = line.split('#').next().unwrap_or_default();
+    let fields = line.split([' ', '\t', ',', '\r']).filter(|field| !field.is_empty());
+    fields
+        .map(|field| {
+            let number = field.parse::<usize>().ok().filter(|number| (1..=count).contains(number));
+            let number =
+                number.ok_or_else(|| format!("`{field}` is no vertex of the mesh, which has {count}"))?;
+            Ok((number - 1) as u32)
+        })
+        .collect()
+}
+
+/// The edges from each vertex to the next; none for no vertices.
+fn along(walk: &[u32], edges: &HashSet<[u32; 2]>) -> Result<Vec<[u32; 2]>, String> {
+    if walk.len() == 1 {
+        return Err("a seam needs two vertices at least".to_owned());
+    }
+    let edge = |ends: &[u32]| {
+        let edge = [ends[0], ends[1]];
+        let is_edge = edges.contains(&sorted(edge));
+        is_edge.then_some(edge).ok_or_else(|| {
+            format!("no edge of the mesh joins the vertices {} and {}", edge[0] + 1, edge[1] + 1)
+        })
+    };
+    walk.windows(2).map(edge).collect()
+}
+
+/// The edges of all faces, the smaller vertex first.
+fn edges(view: PolygonView<'_>) -> HashSet<[u32; 2]> {
+    let around = |face: usize| {
+        let corners = view.face(face);
+        corners.iter().zip(corners.iter().cycle().skip(1)).map(|(&a, &b)| sorted([a, b]))
+    };
+    (0..view.face_count()).flat_map(around).collect()
+}
+
+fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
 }

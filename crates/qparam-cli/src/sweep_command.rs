@@ -20,7 +20,7 @@ use crate::streams::Streams;
 use crate::sweep::{Column, Features, Knee, NoKnee, Sweep, sweep};
 use crate::table::{Table, short};
 use crate::threads;
-use crate::translate::no_map;
+use crate::translate::{Names, no_map};
 use crate::unwrap::{method_line, options_json};
 
 #[derive(Serialize)]
@@ -68,7 +68,7 @@ pub(crate) fn run(arguments: &SweepArgs, io: &mut Streams<'_>) -> Result<Exit, F
     if io.interrupt.is_requested() {
         return Err(Failure::interrupted());
     }
-    let sweep = result.map_err(|error| no_map(&error, &mesh, &input))?;
+    let sweep = result.map_err(|error| no_map(&error, &Names::of_all(&mesh, &input)))?;
     if let Some(target) = &csv {
         let text = csv_text(&sweep);
         target.write(io.stdout, io.interrupt, |writer| writer.write_all(text.as_bytes()))?;

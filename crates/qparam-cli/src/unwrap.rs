@@ -24,6 +24,7 @@ use crate::interrupt::Phase;
 use crate::islands::{refuse_repairs, trades};
 use crate::json_text;
 use crate::keep;
+use crate::layout_args::SeamSource;
 use crate::output::{Outputs, Target, together};
 use crate::page_report::{self, Source};
 use crate::pins;
@@ -190,10 +191,11 @@ fn refuse_clashes(
         );
     }
     let inputs = [Some(&arguments.input), arguments.map.boundary_uv.as_ref(), arguments.pins.as_ref()];
-    if inputs.into_iter().filter(|&path| dash(path)).count() > 1 {
+    let seams = arguments.layout.seams.iter().map(SeamSource::file);
+    if inputs.into_iter().chain(seams).filter(|&path| dash(path)).count() > 1 {
         return refuse(
             "standard input cannot be read twice",
-            "name a file for the mesh, for --boundary-uv and for --pins",
+            "name a file for the mesh, for --boundary-uv, for --pins and for --seams",
         );
     }
     if arguments.json && simplified == Some(&Target::Stdout) {
@@ -237,7 +239,7 @@ fn notes(arguments: &UnwrapArgs, typed: &[String]) -> Vec<String> {
             return Some("only direct reads it");
         }
         if minimises && ["backend", "residual-bound", "max-iterations"].contains(&name) {
-            return Some("each Newton system is factorized");
+            return Some("Newton systems have solvers of their own");
         }
         if method != MethodChoice::Paper && PAPER_ONLY.contains(&name) {
             return Some("the method is not `paper`");
@@ -290,6 +292,7 @@ impl Job<'_> {
         notes.push(method_line(map, Some(self.arguments.q)));
         notes.extend(done_lines(
             record(result),
+            result.rounding.as_ref(),
             &result.repairs,
             result.seams,
             result.layout.as_ref(),
@@ -390,6 +393,7 @@ impl Job<'_> {
             worst_faces,
             options: options_json(&self.options.map, arguments.map.boundary_uv.as_deref()),
             record: record(result),
+            rounding: result.rounding.as_ref(),
             repairs: &result.repairs,
             seams: result.seams,
             trade: trades(result.seams, &result.islands),

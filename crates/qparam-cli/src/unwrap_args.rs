@@ -21,7 +21,7 @@ use crate::pins::{self, PinArg};
 
 /// Compute UVs and write them into a copy of the file.
 #[derive(Args, Clone, Debug)]
-#[command(after_help = exit::TABLE, after_long_help = AFTER_LONG_HELP)]
+#[command(after_help = exit::TABLE, after_long_help = format!("{CONFIGURATION}\n\n{}", exit::TABLE))]
 pub(crate) struct UnwrapArgs {
     /// The quad mesh, an OBJ file; `-` is standard input
     #[arg(value_name = "IN.obj")]
@@ -221,26 +221,14 @@ pub(crate) struct MapArgs {
     pub(crate) threads: usize,
 }
 
-const AFTER_LONG_HELP: &str = "\
+const CONFIGURATION: &str = "\
 Configuration file:
   Defaults for the options above, one `name = value` a line, without the dashes:
       q = 0.8
       boundary = \"square\"
       no-overlap-removal = true
   Read from --config FILE, else from qparam.toml in the working directory, else from
-  $XDG_CONFIG_HOME/qparam/config.toml (~/.config when that is not set). The command line wins.
-
-Exit codes:
-    0  the map is written and certified (no flips, no overlaps)
-    2  wrong usage: an option, or the configuration file
-    3  the input could not be read or parsed
-    4  the mesh is refused; the message says why (with --strict: what would have to be mended)
-    5  the computation failed
-    6  the output could not be written
-    7  UVs were written, but flips or overlaps remain
-    8  --time-limit ended the work: the best map so far is written and certified
-    9  --time-limit was over before there was a map; nothing is written
-  130  interrupted";
+  $XDG_CONFIG_HOME/qparam/config.toml (~/.config when that is not set). The command line wins.";
 
 impl UnwrapArgs {
     /// The library's options. A fixed boundary is still empty: its file has not been read.

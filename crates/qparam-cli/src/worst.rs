@@ -1,9 +1,9 @@
 //! The worst faces of a map, in the numbers of the file and in words.
 
-use qoptimize::qmesh::{Chart, FaceId, Id, VertexId};
-use qoptimize::worst::{causes, center};
+use qoptimize::qmesh::{Chart, FaceId, Id, QuadMesh, VertexId};
 use qoptimize::{
-    Atlas, AtlasOptions, Cause, Circumstances, Exempt, FaceMeasure, MeasureError, Stop, measure_worst_faces,
+    Atlas, AtlasOptions, Cause, Circumstances, Exempt, FaceMeasure, MeasureError, Stop, WorstFace,
+    measure_worst_faces,
 };
 use serde::Serialize;
 
@@ -63,19 +63,20 @@ pub(crate) fn find(
             .iter()
             .find_map(|chart| Some((chart, chart.faces.binary_search(&face).ok()?)))
             .map(|(chart, place)| (chart, FaceId::from_index(place)))?;
-        Some(WorstReport {
-            face: index + 1,
-            place: center(&chart.mesh, place).into(),
-            symmetric_dirichlet: Some(measure.symmetric_dirichlet).filter(|energy| energy.is_finite()),
-            angle_degrees: measure.angle_degrees,
-            area_ratio: measure.area_ratio,
-            causes: explained(chart, place, atlas, options),
-        })
+        let found = explained(chart, place, &measure, atlas, options);
+        Some(WorstReport::new(index, found, &chart.mesh))
     };
     Ok(worst.into_iter().filter_map(explain).collect())
 }
 
-fn explained(chart: &Chart, face: FaceId, atlas: &Atlas, options: &AtlasOptions) -> Vec<CauseReport> {
+/// A face of a chart under the circumstances of its island.
+fn explained(
+    chart: &Chart,
+    face: FaceId,
+    measure: &FaceMeasure,
+    atlas: &Atlas,
+    options: &AtlasOptions,
+) -> WorstFace {
     let mesh = &chart.mesh;
     // Islands that were cut further have other records, and begin elsewhere.
     let island = atlas.islands.iter().find(|island| chart.faces.first() == Some(&island.first_face));
@@ -89,19 +90,7 @@ fn explained(chart: &Chart, face: FaceId, atlas: &Atlas, options: &AtlasOptions)
             || direct.is_some_and(|direct| direct.boundary_repair.is_some()),
         not_converged: direct.is_some_and(|direct| direct.descent.stop != Stop::Converged),
     };
-    let number = |vertex: VertexId| mesh.source_vertex(vertex) + 1;
-    let reported = |cause: Cause| match cause {
-        Cause::Exempt => CauseReport::Exempt,
-        Cause::Degenerate => CauseReport::Degenerate,
-        Cause::Concave => CauseReport::Concave,
-        Cause::NotPlanar { degrees } => CauseReport::NotPlanar { degrees },
-        Cause::Pin { vertex } => CauseReport::Pin { vertex: number(vertex) },
-        Cause::Boundary => CauseReport::Boundary,
-        Cause::Curvature { radians, vertex } => CauseReport::Curvature { radians, vertex: number(vertex) },
-        Cause::NotConverged => CauseReport::NotConverged,
-        _ => CauseReport::Surroundings,
-    };
-    causes(mesh, face, &circumstances).into_iter().map(reported).collect()
+    WorstFace::new(mesh, face, measure, &circumstances)
 }
 
 /// The lines of the report; none where nothing is worth naming.
@@ -113,6 +102,19 @@ pub(crate) fn text(faces: &[WorstReport]) -> String {
 }
 
 impl WorstReport {
+    /// The face `index` of the file, which is `found` in `mesh`.
+    fn new(index: usize, found: WorstFace, mesh: &QuadMesh) -> Self {
+        let causes = found.causes.into_iter().map(|cause| CauseReport::new(cause, mesh)).collect();
+        Self {
+            face: index + 1,
+            place: found.place.into(),
+            symmetric_dirichlet: found.symmetric_dirichlet,
+            angle_degrees: found.angle_degrees,
+            area_ratio: found.area_ratio,
+            causes,
+        }
+    }
+
     fn line(&self) -> String {
         let [x, y, z] = self.place.map(short);
         let energy = match self.symmetric_dirichlet {
@@ -140,6 +142,21 @@ impl WorstReport {
 }
 
 impl CauseReport {
+    fn new(cause: Cause, mesh: &QuadMesh) -> Self {
+        let number = |vertex: VertexId| mesh.source_vertex(vertex) + 1;
+        match cause {
+            Cause::Exempt => Self::Exempt,
+            Cause::Degenerate => Self::Degenerate,
+            Cause::Concave => Self::Concave,
+            Cause::NotPlanar { degrees } => Self::NotPlanar { degrees },
+            Cause::Pin { vertex } => Self::Pin { vertex: number(vertex) },
+            Cause::Boundary => Self::Boundary,
+            Cause::Curvature { radians, vertex } => Self::Curvature { radians, vertex: number(vertex) },
+            Cause::NotConverged => Self::NotConverged,
+            _ => Self::Surroundings,
+        }
+    }
+
     fn words(&self) -> String {
         match self {
             Self::Exempt => "cannot be convex in any map".into(),

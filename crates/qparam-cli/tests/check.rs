@@ -109,6 +109,32 @@ fn what_single_precision_cannot_hold_is_refused() {
     assert_eq!(folder.names(), ["double.obj", "in.obj"]);
 }
 
+/// With several islands the whole is rounded: the report says what that did, and a refusal names the faces all the same.
+#[test]
+fn several_islands_are_rounded_as_one_is() {
+    const SQUARE: &str = "v 50 0 0\nv 51 0 0\nv 51 1 0\nv 50 1 0\nf -4 -3 -2 -1\n";
+    let folder = Folder::new();
+    folder.write("in.obj", hill(6) + SQUARE);
+    let arguments = ["unwrap", "in.obj", "-o", "out.obj", "--uv-precision", "f32"];
+    let run = folder.qparam(&arguments).code(0);
+    assert_eq!(run.stdout.matches("rounded to single precision").count(), 1, "{}", run.stdout);
+    let json = folder.qparam(&[&arguments[..], &["--json"]].concat()).code(0).json();
+    assert_eq!(json["rounding"]["broken_faces"], 0, "{json}");
+    let json = folder.qparam(&["unwrap", "in.obj", "-o", "out.obj", "--json"]).code(0).json();
+    assert!(json["rounding"].is_null(), "{json}");
+
+    folder.write("thin.obj", tube(17) + SQUARE);
+    let refused = ["unwrap", "thin.obj", "--method", "uniform", "-o", "no.obj", "--uv-precision", "f32"];
+    let run = folder.qparam(&refused).code(5);
+    let expected = [
+        "in single precision the map would overlap itself",
+        "at the faces ",
+        "(line ",
+        "use --uv-precision f64",
+    ];
+    assert!(expected.iter().all(|part| run.stderr.contains(part)), "{}", run.stderr);
+}
+
 /// A four-sided tube of `rings` rings, closed at one end.
 fn tube(rings: usize) -> String {
     let mut text = String::new();

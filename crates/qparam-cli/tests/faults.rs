@@ -132,16 +132,44 @@ fn too_little_memory_leaves_all_or_nothing() {
     assert!(done > 0 && failed > 0, "{done} done, {failed} failed");
 }
 
-/// One thread, or many more than there are processors: the same bytes.
+/// One thread, or many more than there are processors: the same bytes, of a mesh that is large enough to be mapped by way of coarser
+/// ones and in many pieces, and of many islands that are packed and rounded.
 #[test]
 fn the_number_of_threads_changes_nothing() {
-    let folder = Folder::new();
-    folder.write("in.obj", CUBE.to_owned() + "v 5 0 0\nv 6 0 0\nv 6 1 0\nv 5 1 0\nf 9 10 11 12\n");
-    for threads in ["1", "2", "64"] {
-        folder.qparam(&["unwrap", "in.obj", "-o", &format!("{threads}.obj"), "--threads", threads]).code(0);
+    let cases: [(&str, String, &[&str]); 2] = [
+        ("22,500 quads", hill(150), &["--method", "direct"]),
+        ("many islands", beside(3..24), &["--uv-precision", "f32"]),
+    ];
+    for (name, text, more) in cases {
+        let folder = Folder::new();
+        folder.write("in.obj", text);
+        for threads in ["1", "2", "64"] {
+            let output = format!("{threads}.obj");
+            folder
+                .qparam(&[&["unwrap", "in.obj", "-o", &output, "--threads", threads], more].concat())
+                .code(0);
+        }
+        assert!(folder.read("1.obj") == folder.read("2.obj"), "{name}");
+        assert!(folder.read("1.obj") == folder.read("64.obj"), "{name}");
     }
-    assert_eq!(folder.read("1.obj"), folder.read("2.obj"));
-    assert_eq!(folder.read("1.obj"), folder.read("64.obj"));
+}
+
+/// Hills of these sizes, each with its own vertices.
+fn beside(sizes: std::ops::Range<usize>) -> String {
+    let (mut text, mut before) = (String::new(), 0);
+    for n in sizes {
+        for line in hill(n).lines() {
+            match line.strip_prefix("f ") {
+                Some(corners) => {
+                    let corner = |field: &str| format!(" {}", field.parse::<usize>().unwrap() + before);
+                    text += &format!("f{}\n", corners.split(' ').map(corner).collect::<String>());
+                }
+                None => text += &format!("{line}\n"),
+            }
+        }
+        before += (n + 1) * (n + 1);
+    }
+    text
 }
 
 /// Runs at once on one output: each writes its own temporary file, and the last to finish has its map there, whole.

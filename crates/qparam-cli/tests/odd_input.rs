@@ -419,10 +419,16 @@ fn mistakes_about_seams_are_named() {
     folder.write("bad.txt", "1 2\n2 x\n");
     folder.write("far.txt", "1 99\n");
     folder.write("one.txt", "1\n");
+    folder.write("comma.txt", "1 2\n5,\n");
+    folder.write("apart.txt", "1 2 3\n\n4 5 9\n");
+    folder.write("same.txt", "1 1\n");
     for (source, code, expected) in [
         ("bad.txt", 3, "bad.txt:2: `x` is no vertex of the mesh, which has 9"),
         ("far.txt", 3, "far.txt:1: `99` is no vertex of the mesh, which has 9"),
         ("one.txt", 3, "one.txt:1: a seam needs two vertices at least"),
+        ("comma.txt", 3, "comma.txt:2: a seam needs two vertices at least"),
+        ("apart.txt", 3, "apart.txt:3: no edge of the mesh joins the vertices 5 and 9"),
+        ("same.txt", 3, "same.txt:1: no edge of the mesh joins the vertices 1 and 1"),
         ("nowhere.txt", 3, "nowhere.txt could not be read"),
         ("uv", 3, "--seams uv, but not every corner has a UV"),
         ("angle:400", 2, "expected degrees between 0 and 180"),
@@ -430,6 +436,8 @@ fn mistakes_about_seams_are_named() {
         let run = folder.qparam(&["unwrap", "in.obj", "--seams", source]).code(code);
         assert!(run.stderr.contains(expected), "{source}: {}", run.stderr);
     }
+    let run = folder.qparam_with(&["unwrap", "-", "--seams", "-"], grid(2, 2).as_bytes()).code(2);
+    assert!(run.stderr.contains("standard input cannot be read twice"), "{}", run.stderr);
 }
 
 /// The layout is in the unit square, at its true size, or at the density that was asked for.

@@ -174,6 +174,7 @@ fn mistakes_in_boundary_files_are_named() {
         ("1 0 0\n2 x 0\n", "list.txt:2: `x 0` is no position"),
         ("1 0 0\n\n99 0 0\n", "list.txt:3: `99` is no vertex of the mesh, which has 9"),
         ("1 0\n", "list.txt:1: expected three values, found 2"),
+        ("1 0 0\n2 1 0\n1 0 1\n", "list.txt:3: vertex 1 has a position already, from line 1"),
         ("1 0 0\n", "list.txt: no position for vertex 2 (in.obj:5)"),
     ] {
         folder.write("list.txt", list);

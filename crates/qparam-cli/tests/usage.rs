@@ -58,6 +58,9 @@ fn an_option_that_nothing_reads_is_noted() {
         "{}",
         run.stderr
     );
+    let run = folder.qparam(&["unwrap", "in.obj", "--backend", "multigrid"]).code(0);
+    let note = "note: --backend has no effect: Newton systems have solvers of their own";
+    assert!(run.stderr.contains(note), "{}", run.stderr);
 }
 
 #[test]

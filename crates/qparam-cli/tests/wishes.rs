@@ -23,6 +23,13 @@ fn pins_arrive_in_the_file() {
     assert_eq!((vt[0].as_str(), vt[48].as_str()), ("-0.25 0.5", "0.75 0.5"));
     folder.qparam(&["unwrap", "in.obj", "--pin=25=0.5,0.5"]).code(0);
     assert_eq!(placed(&folder, "in_uv.obj")[24], "0.5 0.5");
+    folder.write("pins.txt", "49 0.75 0.5\n49 0.5 0.5\n");
+    let run = folder.qparam(&["unwrap", "in.obj", "--pins", "pins.txt"]).code(3);
+    assert!(
+        run.stderr.contains("pins.txt:2: vertex 49 has a position already, from line 1"),
+        "{}",
+        run.stderr
+    );
 }
 
 /// A boundary is held where the file says, and the report says so.
@@ -71,7 +78,7 @@ fn impossible_wishes_are_refused_with_the_place() {
         (
             &["--boundary", "fixed", "--boundary-uv", "dent.txt"][..],
             5,
-            "face 1 lies with three vertices on the boundary, which does not turn left at vertex 1",
+            "face 1 (line 31) lies with three vertices on the boundary, which does not turn left at vertex 1",
         ),
     ] {
         let run = folder.qparam(&[&["unwrap", "in.obj"], arguments].concat()).code(code);

@@ -1,8 +1,9 @@
 //! What can be chosen, and what can go wrong.
 
 use qembed::BoundaryShape;
-use qembed::qmesh::{BuildError, QuadMesh, Vec2, Vec3};
+use qembed::qmesh::{BuildError, Chart, Vec2, Vec3};
 
+use crate::certificate::Certificate;
 use crate::distortion::MeasureError;
 use crate::error::ParameterizeError;
 use crate::pack::PackOptions;
@@ -132,18 +133,31 @@ pub enum AtlasError {
         face: u32,
     },
     /// The only island has no map, or an island is closed and may not be cut open.
-    #[error("the island of face {first_face} has no map: {error}")]
+    #[error("the island of face {} has no map: {error}", .chart.faces.first().copied().unwrap_or(0))]
     Island {
-        /// Its first face in the polygons.
-        first_face: u32,
-        /// The island, whose vertices `error` names.
-        mesh: Box<QuadMesh>,
+        /// The island, whose vertices, faces and corners `error` names.
+        chart: Box<Chart>,
         /// Why.
         error: ParameterizeError,
     },
+    /// The whole is proven free of overlaps, but not after rounding to single precision, and could not be mended; the certificate of
+    /// the rounded map names the places, in the numbers of the polygons.
+    #[error("in single precision the map would overlap itself: its certificate {0}")]
+    Rounding(Box<Certificate>),
     /// The map could not be measured.
     #[error(transparent)]
     Measure(#[from] MeasureError),
+}
+
+impl AtlasError {
+    /// An error about the whole, whose numbers are those of the polygons.
+    pub(super) fn of_the_whole(error: ParameterizeError) -> Self {
+        match error {
+            ParameterizeError::Rounding(certificate) => Self::Rounding(certificate),
+            ParameterizeError::Measure(error) => Self::Measure(error),
+            other => Self::Options(other),
+        }
+    }
 }
 
 impl AtlasOptions {

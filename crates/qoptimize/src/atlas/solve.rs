@@ -116,8 +116,7 @@ fn refusal(chart: Chart, error: ParameterizeError) -> AtlasError {
         ParameterizeError::OutOfTime => return AtlasError::OutOfTime,
         _ => {}
     }
-    let first_face = chart.faces.first().copied().unwrap_or(0);
-    AtlasError::Island { first_face, mesh: Box::new(chart.mesh), error }
+    AtlasError::Island { chart: Box::new(chart), error }
 }
 
 /// One chart of several: what the method cannot do, another one does; the convex start does where there is no time left.

@@ -7,8 +7,8 @@ use super::Shape;
 /// Cells are covered when an island comes within this fraction of a cell: far more than coordinates round.
 const SLACK: f64 = 1e-6;
 
-/// Cells in a row, and rows, at most: what is larger has no place on any grid, and is only to do no harm.
-const MOST_CELLS: f64 = 1e6;
+/// Cells in a row, and rows, at most: what is larger is cut off, has no place on any grid, and is only to do no harm.
+pub(super) const LONGEST: f64 = 1e6;
 
 /// The cells that contain an island and its margin; the lowest and leftmost have coordinate 0.
 pub(super) struct Cover {
@@ -75,7 +75,7 @@ impl Cover {
 
 /// Appends `[row, from, to]` for each row of cells that comes within `around` of the convex hull of a face.
 fn cover_face(corners: &[Vec2], around: f64, spans: &mut Vec<[u32; 3]>) {
-    let cell = |x: f64| x.clamp(0.0, MOST_CELLS).floor() as u32;
+    let cell = |x: f64| x.clamp(0.0, LONGEST).floor() as u32;
     let low = corners.iter().map(|p| p.y).fold(f64::INFINITY, f64::min) - around;
     let high = corners.iter().map(|p| p.y).fold(f64::NEG_INFINITY, f64::max) + around;
     for row in cell(low)..=cell(high) {

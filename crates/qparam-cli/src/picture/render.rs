@@ -3,6 +3,7 @@
 use qoptimize::qmesh::{Vec2, Vec3};
 use rayon::prelude::*;
 
+use super::bins::{Bins, Span, tile};
 use super::camera::{Camera, Projection, Seen, UpAxis, View};
 use super::canvas::Canvas;
 use super::color::{Linear, Rgba};
@@ -82,19 +83,21 @@ impl<'a> Stage<'a> {
     }
 
     fn draw(&self, [width, height]: [usize; 2], background: Rgba) -> Canvas {
-        let bins = Bins::new(self, width, height);
+        let columns = width.div_ceil(TILE);
+        let bins = self.bins(columns, height.div_ceil(TILE));
         let mut canvas = Canvas::new(width, height, background);
         let bands = canvas.pixels_mut().par_chunks_mut(width * TILE).enumerate();
         bands.for_each_init(Tile::new, |tile, (row, band)| {
-            for column in 0..bins.columns {
+            let mut seen = bins.band(row);
+            for column in 0..columns {
                 let (left, top) = (column * TILE, row * TILE);
-                let patches = bins.of(column, row);
-                if patches.is_empty() {
+                let patches = seen.patches(column);
+                if patches.len() == 0 {
                     continue;
                 }
                 let size = [(width - left).min(TILE), (height - top).min(TILE)];
                 tile.place(left, top, size[0], size[1]);
-                for &patch in patches {
+                for patch in patches {
                     let shape = &self.model.patches[patch as usize];
                     tile.draw(patch, shape, &self.corners(shape));
                 }
@@ -105,6 +108,20 @@ impl<'a> Stage<'a> {
             }
         });
         canvas
+    }
+
+    /// Where the boxes around the patches are, in tiles.
+    fn bins(&self, columns: usize, rows: usize) -> Bins {
+        let span = |patch: &Patch| {
+            let corners = self.corners(patch).map(|corner| corner.place / TILE as f64);
+            let low = corners.iter().fold(corners[0], |a, b| a.inf(b));
+            let high = corners.iter().fold(corners[0], |a, b| a.sup(b));
+            Span {
+                columns: [tile(low.x, columns), tile(high.x, columns)],
+                rows: [tile(low.y, rows), tile(high.y, rows)],
+            }
+        };
+        Bins::new(self.model.patches.par_iter().map(span).collect())
     }
 
     fn corners(&self, patch: &Patch) -> [Seen; 4] {
@@ -283,51 +300,4 @@ impl<'a> Edges<'a> {
 fn faded(ink: &Ink, pixels: f32) -> f32 {
     let side = pixels.sqrt() / ink.width;
     if side < 1.5 { 0.0 } else { ink.strength * ((side - 1.0) / 6.0).clamp(0.12, 1.0) }
-}
-
-/// Which patches each tile may see, in order.
-struct Bins {
-    columns: usize,
-    start: Vec<u32>,
-    patches: Vec<u32>,
-}
-
-impl Bins {
-    fn new(stage: &Stage<'_>, width: usize, height: usize) -> Self {
-        let (columns, rows) = (width.div_ceil(TILE), height.div_ceil(TILE));
-        let spans: Vec<[usize; 4]> = stage
-            .model
-            .patches
-            .par_iter()
-            .map(|patch| {
-                let corners = stage.corners(patch).map(|corner| corner.place);
-                let low = corners.iter().fold(corners[0], |a, b| a.inf(b));
-                let high = corners.iter().fold(corners[0], |a, b| a.sup(b));
-                let tile = |x: f64, count: usize| ((x / TILE as f64).max(0.0) as usize).min(count - 1);
-                [tile(low.x, columns), tile(high.x, columns), tile(low.y, rows), tile(high.y, rows)]
-            })
-            .collect();
-        let tiles = |[x0, x1, y0, y1]: [usize; 4]| {
-            (y0..=y1).flat_map(move |y| (x0..=x1).map(move |x| y * columns + x))
-        };
-        let mut start = vec![0_u32; columns * rows + 1];
-        spans.iter().flat_map(|&span| tiles(span)).for_each(|tile| start[tile + 1] += 1);
-        for i in 0..columns * rows {
-            start[i + 1] += start[i];
-        }
-        let mut fill = start.clone();
-        let mut patches = vec![0; start[columns * rows] as usize];
-        for (number, &span) in spans.iter().enumerate() {
-            for tile in tiles(span) {
-                patches[fill[tile] as usize] = number as u32;
-                fill[tile] += 1;
-            }
-        }
-        Self { columns, start, patches }
-    }
-
-    fn of(&self, column: usize, row: usize) -> &[u32] {
-        let tile = row * self.columns + column;
-        &self.patches[self.start[tile] as usize..self.start[tile + 1] as usize]
-    }
 }

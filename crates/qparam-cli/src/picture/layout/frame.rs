@@ -6,6 +6,8 @@ use super::super::PictureError;
 
 /// Space around the layout, as a share of the narrower side.
 const MARGIN: f64 = 0.04;
+/// Multiples of a step above this are not told apart by floating-point numbers, so there are no lines to draw.
+const LARGEST_MULTIPLE: f64 = (1_u64 << 52) as f64;
 /// More tiles than this are not outlined: the UVs are no texture coordinates then.
 const MOST_TILES: f64 = 64.0;
 
@@ -72,16 +74,16 @@ impl Frame {
         for axis in 0..2 {
             let slack = 1e-9 * (high - low).max() / step;
             let (first, last) = ((low[axis] / step - slack).ceil(), (high[axis] / step + slack).floor());
-            let mut at = first;
-            while at <= last {
-                let end = |other: f64| {
-                    let mut uv = Vec2::repeat(other);
-                    uv[axis] = at * step;
-                    self.place(uv)
-                };
-                lines.push([end(low[1 - axis]), end(high[1 - axis])]);
-                at += 1.0;
+            if [first, last].into_iter().any(|at| at.is_nan() || at.abs() > LARGEST_MULTIPLE) {
+                continue;
             }
+            lines.extend((first as i64..=last as i64).map(|multiple| {
+                [low, high].map(|end| {
+                    let mut uv = end;
+                    uv[axis] = multiple as f64 * step;
+                    self.place(uv)
+                })
+            }));
         }
         lines
     }
@@ -104,5 +106,17 @@ mod tests {
         let far = frame(&[[1000.0, 0.0], [1200.0, 100.0]]).unwrap();
         assert!((far.scale - 0.5).abs() < 1e-9 && far.tiles().is_empty());
         assert!(frame(&[[0.5, 0.5], [0.5, 0.5]]).is_err() && frame(&[]).is_err());
+    }
+
+    /// Where whole numbers are no longer told apart there are no lines, and up to there they all are.
+    #[test]
+    fn lines_end_where_numbers_do() {
+        for (at, is_drawn) in [(1e9_f64, true), (4e15, true), (1e16, false), (-1e16, false), (1e300, false)] {
+            let uv = [at, at + 8.0_f64.max(1e-15 * at.abs())].map(Vec2::repeat);
+            let frame = Frame::around(&uv, [100, 100]).unwrap();
+            let expected = if is_drawn { 18 } else { 0 };
+            assert_eq!((frame.tiles().len(), frame.grid(1.0).len()), (expected, expected), "{at}");
+            assert_eq!(frame.grid(f64::NAN).len(), 0);
+        }
     }
 }

@@ -45,7 +45,9 @@ function logTicks(low, high) {
   if (!steps) {
     const [from, to] = [10 ** low, 10 ** high], raw = (to - from) / 4, power = 10 ** Math.floor(Math.log10(raw));
     const step = [1, 2, 5, 10].map(k => k * power).find(k => k >= raw);
-    for (let value = Math.ceil(from / step) * step; value <= to; value += step) ticks.push(Number(value.toPrecision(6)));
+    // Counted, since a step may be too small to move a value.
+    const first = Math.ceil(from / step), count = Math.min(Math.floor(to / step) - first + 1, 10);
+    for (let i = 0; i < count; i++) ticks.push(Number(((first + i) * step).toPrecision(6)));
     return ticks;
   }
   const skip = Math.max(1, Math.ceil((high - low) / 6));

@@ -28,7 +28,7 @@ mod tally;
 
 pub use benchmark::Benchmark;
 pub use error::MeasureError;
-pub(crate) use error::{check, check_arrays, first};
+pub(crate) use error::{check, check_arrays, check_polygons, first};
 pub use faces::{FaceMeasure, FaceMeasures, measure_faces, measure_worst_faces};
 use qembed::qmesh::{PolygonView, Vec2};
 use rayon::prelude::*;

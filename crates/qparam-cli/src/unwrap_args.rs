@@ -411,7 +411,7 @@ fn thread_count(text: &str) -> Result<usize, String> {
 
 #[cfg(test)]
 mod tests {
-    use clap::{Parser, ValueEnum};
+    use clap::{CommandFactory, Parser, ValueEnum};
     use qoptimize::Preset;
 
     use super::{Options, PresetChoice, UnwrapArgs};
@@ -431,6 +431,33 @@ mod tests {
     #[test]
     fn the_defaults_are_those_of_the_library() {
         assert_eq!(options(&[]), Options::default());
+    }
+
+    /// The README's table of options names the same defaults, in brackets after the option.
+    #[test]
+    fn the_defaults_are_those_of_the_readme() {
+        let readme = include_str!("../../../README.md");
+        let (_, table) = readme.split_once("### Options of `unwrap`").unwrap();
+        let (table, _) = table.split_once("`qparam unwrap --help`").unwrap();
+        let command = Alone::command();
+        let mut checked = 0;
+        // Between backticks at odd places stands code, at the next even one what follows it.
+        let pieces: Vec<&str> = table.split('`').collect();
+        for pair in pieces[1..].chunks_exact(2) {
+            let Some(option) = pair[0].strip_prefix("--") else { continue };
+            let name = option.split([' ', '\\']).next().unwrap();
+            let known = command.get_arguments().find(|argument| argument.get_long() == Some(name));
+            let known = known.unwrap_or_else(|| panic!("--{name} is no option"));
+            let Some(said) = pair[1].strip_prefix(" (") else { continue };
+            let said = said.split([' ', ')', ':']).next().unwrap();
+            let default = known.get_default_values().first().map(|value| value.to_str().unwrap());
+            assert!(
+                said == default.unwrap_or("none") || said == "repeatable",
+                "--{name} ({said}): {default:?}"
+            );
+            checked += 1;
+        }
+        assert!(checked > 20, "{checked} defaults");
     }
 
     /// What `--preset` expands to is what the library's preset is.

@@ -37,7 +37,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<(), String> {
             println!("{}", rows.last().map(Series::text).unwrap_or_default());
         }
     }
-    let complaints: Vec<String> = rows.iter().flat_map(Series::uncertified).collect();
+    let complaints: Vec<String> = rows.iter().flat_map(Series::complaints).collect();
     if arguments.is_empty() {
         fs::write(root.join(FILE), table(&rows)).map_err(|error| format!("{FILE}: {error}"))?;
     }
@@ -71,13 +71,16 @@ impl Series {
         Self { name: mesh.name.clone(), quads: mesh.mesh.face_count(), angle_term, maps }
     }
 
-    fn uncertified(&self) -> Vec<String> {
+    /// What is not as it has to be: maps without a certificate, and what goes against the dial.
+    fn complaints(&self) -> Vec<String> {
         let complaint = |(q, map): (&f64, &Result<Entry, String>)| match map {
             Ok(entry) if entry.holds => None,
             Ok(_) => Some(format!("{}, q = {q}: not certified", self.name)),
             Err(error) => Some(format!("{}, q = {q}: {error}", self.name)),
         };
-        DIALS.iter().zip(&self.maps).filter_map(complaint).collect()
+        let against = |wrong| format!("{}, {:?}: {wrong} against the dial", self.name, self.angle_term);
+        let uncertified = DIALS.iter().zip(&self.maps).filter_map(complaint);
+        uncertified.chain(self.exceptions().into_iter().map(against)).collect()
     }
 
     /// By how much the values that `pick` gives go down where they should go up, at worst; relative.
@@ -90,15 +93,21 @@ impl Series {
         values.windows(2).map(wrong).fold(0.0, f64::max)
     }
 
-    fn exceptions(&self) -> String {
+    /// The terms that go the wrong way, and by how much.
+    fn exceptions(&self) -> Vec<String> {
         let minimised = [self.against(|e| e.minimised[0], true), self.against(|e| e.minimised[1], false)];
         let printed = [self.against(|e| e.printed[0], true), self.against(|e| e.printed[1], false)];
         let names = ["angle term", "area term", "Eq. 13", "Eq. 14"];
         let judged = if self.angle_term == AngleTerm::Paper { 4 } else { 2 };
-        let found: Vec<String> = (minimised.iter().chain(&printed).zip(names).take(judged))
+        (minimised.iter().chain(&printed).zip(names).take(judged))
             .filter(|(wrong, _)| **wrong > TOLERANCE)
             .map(|(wrong, name)| format!("{name} {:.1} %", 100.0 * wrong))
-            .collect();
+            .collect()
+    }
+
+    /// The same in a cell of a table.
+    fn exceptions_cell(&self) -> String {
+        let found = self.exceptions();
         if found.is_empty() { "–".to_owned() } else { found.join(", ") }
     }
 
@@ -117,7 +126,7 @@ impl Series {
             self.name,
             self.angle_term,
             DIALS.len(),
-            self.exceptions()
+            self.exceptions_cell()
         )
     }
 }
@@ -172,7 +181,7 @@ fn table(rows: &[Series]) -> String {
             row.cells(|e| number(e.printed[1])),
             row.cells(|e| format!("{:.3}", e.dirichlet)),
             row.cells(|e| e.steps.to_string()),
-            row.exceptions()
+            row.exceptions_cell()
         );
     }
     text
@@ -193,18 +202,18 @@ mod tests {
             let mesh = Mesh { name: name.to_owned(), mesh };
             for angle_term in [AngleTerm::Log, AngleTerm::Paper] {
                 let series = Series::new(&mesh, angle_term);
-                assert_eq!(series.uncertified(), Vec::<String>::new());
-                assert_eq!(series.exceptions(), "–", "{}", series.text());
+                assert_eq!(series.complaints(), Vec::<String>::new());
+                assert_eq!(series.exceptions_cell(), "–", "{}", series.text());
             }
         }
     }
 
-    /// A term that goes the wrong way is named.
+    /// A term that goes the wrong way is named, and the task complains of it as of a map without a certificate.
     #[test]
-    fn what_goes_against_the_dial_is_named() {
-        let entry = |angle, area| {
+    fn what_goes_against_the_dial_is_a_complaint() {
+        let entry_that = |holds, angle, area| {
             Ok(Entry {
-                holds: true,
+                holds,
                 minimised: [angle, area, 0.0],
                 printed: [angle, area],
                 dirichlet: 1.0,
@@ -212,8 +221,14 @@ mod tests {
                 seconds: 0.0,
             })
         };
+        let entry = |angle, area| entry_that(true, angle, area);
         let series = |maps| Series { name: "m".to_owned(), quads: 1, angle_term: AngleTerm::Log, maps };
-        assert_eq!(series(vec![entry(1.0, 2.0), entry(1.1, 1.5)]).exceptions(), "–");
-        assert_eq!(series(vec![entry(1.0, 2.0), entry(0.9, 2.002)]).exceptions(), "angle term 11.1 %");
+        let heeds = series(vec![entry(1.0, 2.0), entry(1.1, 1.5)]);
+        assert_eq!((heeds.exceptions_cell(), heeds.complaints()), ("–".to_owned(), Vec::new()));
+        let against = series(vec![entry(1.0, 2.0), entry(0.9, 2.002)]);
+        assert_eq!(against.exceptions_cell(), "angle term 11.1 %");
+        assert_eq!(against.complaints(), ["m, Log: angle term 11.1 % against the dial"]);
+        let uncertified = series(vec![entry_that(false, 1.0, 2.0), Err("no start".to_owned())]);
+        assert_eq!(uncertified.complaints(), ["m, q = 1: not certified", "m, q = 0.8: no start"]);
     }
 }

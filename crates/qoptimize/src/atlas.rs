@@ -150,7 +150,7 @@ pub fn unwrap(
     options: &AtlasOptions,
     observer: &dyn Observer,
 ) -> Result<Atlas, AtlasError> {
-    options.check()?;
+    options.check(polygons.corner_count())?;
     tell(observer, "charts", 0.0)?;
     let mut seams = seams.clone();
     seams.extend(kept_seams(polygons, &options.keep).iter());
@@ -184,7 +184,7 @@ pub fn unwrap_charts(
     options: &AtlasOptions,
     observer: &dyn Observer,
 ) -> Result<Atlas, AtlasError> {
-    options.check()?;
+    options.check(polygons.corner_count())?;
     let solved = solve::all(pieces, None, options, observer)?;
     finish(polygons, solved, repairs, options, observer)
 }
@@ -202,7 +202,7 @@ pub fn unwrap_charts_from(
     options: &AtlasOptions,
     observer: &dyn Observer,
 ) -> Result<Atlas, AtlasError> {
-    options.check()?;
+    options.check(polygons.corner_count())?;
     before.resize_with(pieces.len(), Continuation::default);
     let solved = solve::all(pieces, Some(before), options, observer)?;
     finish(polygons, solved, repairs, options, observer)
@@ -219,7 +219,7 @@ fn finish(
     if let Some(bound) = options.max_stretch {
         solved = refine::refine(solved, bound, options, observer)?;
     }
-    let layout = if !options.keep.is_empty() {
+    let layout = if options.keeps_any() {
         layout::beside(&mut solved, options);
         None
     } else if solved.len() > 1 || options.up.is_some() || options.true_scale {
@@ -239,7 +239,7 @@ fn finish(
     let (distortion, certificate, rounding) = match &solved[..] {
         // Nobody moved it since it was measured.
         [Solved { distortion: Some(distortion), certificate: Some(certificate), chart, record, .. }]
-            if layout.is_none() && turned_faces.is_empty() && options.keep.is_empty() =>
+            if layout.is_none() && turned_faces.is_empty() && !options.keeps_any() =>
         {
             let certificate = measures::in_source_numbers(certificate, &chart.mesh);
             (distortion.clone(), certificate, record.rounding.clone())

@@ -9,10 +9,14 @@
 //! The quads concerned (doublets, bubbles) are *exempt*: they are held to the two corners at the shared vertices, which
 //! is the split into two triangles along the other diagonal.
 
+mod large;
+
 use std::collections::HashMap;
 
 use qembed::qmesh::{CornerId, FaceId, Id, QuadMesh, VertexId};
 use rayon::prelude::*;
+
+use self::large::LargeFaces;
 
 /// The quads that no map can make convex.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -47,8 +51,7 @@ impl Exempt {
         mesh.degree(face) == 4
             && pairs.any(|[a, b]| {
                 let mut others = mesh.vertex_corners(a).map(|corner| mesh.face(corner));
-                others.any(|other| other != face && is_diagonal(mesh, other, [a, b]))
-                    || mesh.neighbors(a).any(|vertex| vertex == b)
+                others.any(|other| other != face && is_diagonal(mesh, other, [a, b])) || is_edge(mesh, [a, b])
             })
     }
 
@@ -90,30 +93,37 @@ const GRAIN: usize = 4096;
 /// Faces with more corners are not written out as pairs, of which they have as many as the square.
 const MANY_CORNERS: usize = 24;
 
+/// A pair of vertices of a face without an edge of it between, the lower first, and the face.
+type Key = ([VertexId; 2], FaceId);
+
 /// The pairs of vertices that stand in the way, each with the faces that contain it without an edge between. Of the pairs that two faces
 /// with very many corners share only one is named.
 fn shared_pairs(mesh: &QuadMesh) -> Vec<([VertexId; 2], Vec<FaceId>)> {
     let small = (0..mesh.face_count()).into_par_iter().with_min_len(GRAIN).map(FaceId::from_index);
     let small = small.filter(|&face| mesh.degree(face) <= MANY_CORNERS);
-    let mut keys: Vec<([VertexId; 2], FaceId)> = small.flat_map_iter(|face| diagonals(mesh, face)).collect();
-    let large = LargeFaces::new(mesh);
-    if !large.corners.is_empty() {
-        let own = keys.clone();
-        let pairs =
-            own.iter().map(|key| key.0).chain(mesh.edges().map(|edge| sorted(mesh.edge_vertices(edge))));
-        pairs.for_each(|pair| keys.extend(large.with(pair).map(|face| (pair, face))));
-        large.among_themselves(&mut keys);
-    }
+    let mut keys: Vec<Key> = small.flat_map_iter(|face| diagonals(mesh, face)).collect();
+    LargeFaces::new(mesh).extend(&mut keys);
     keys.par_sort_unstable();
     keys.dedup();
     keys.chunk_by(|a, b| a.0 == b.0)
-        .filter(|group| group.len() > 1 || mesh.neighbors(group[0].0[0]).any(|v| v == group[0].0[1]))
+        .filter(|group| group.len() > 1 || is_edge(mesh, group[0].0))
         .map(|group| (group[0].0, group.iter().map(|&(_, face)| face).collect()))
         .collect()
 }
 
+/// Whether an edge joins the two.
+fn is_edge(mesh: &QuadMesh, [a, b]: [VertexId; 2]) -> bool {
+    neighbors_of_both(mesh, [a, b]).any(|[of_a, of_b]| of_a == b || of_b == a)
+}
+
+/// The neighbours of both side by side, as long as the one with fewer has some: where an edge joins the two, it is among those. Over all
+/// diagonals of a surface that is a few for each; the neighbours of one end alone are, around a pole, as many as the square.
+fn neighbors_of_both(mesh: &QuadMesh, [a, b]: [VertexId; 2]) -> impl Iterator<Item = [VertexId; 2]> + '_ {
+    mesh.neighbors(a).zip(mesh.neighbors(b)).map(|(of_a, of_b)| [of_a, of_b])
+}
+
 /// The pairs of vertices of a face that are not neighbours in it.
-fn diagonals(mesh: &QuadMesh, face: FaceId) -> impl Iterator<Item = ([VertexId; 2], FaceId)> + '_ {
+fn diagonals(mesh: &QuadMesh, face: FaceId) -> impl Iterator<Item = Key> + '_ {
     let n = mesh.degree(face);
     let ends = move |i: usize| (i + 2..n).filter(move |&j| (i, j) != (0, n - 1));
     let vertex = move |k: usize| mesh.face_vertices(face).nth(k);
@@ -133,68 +143,8 @@ fn sorted([a, b]: [VertexId; 2]) -> [VertexId; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// The faces with many corners, by their vertices.
-struct LargeFaces {
-    /// Vertex, face, place in the face, degree of the face; sorted.
-    corners: Vec<(VertexId, FaceId, usize, usize)>,
-}
-
-impl LargeFaces {
-    fn new(mesh: &QuadMesh) -> Self {
-        let large = mesh.faces().filter(|&face| mesh.degree(face) > MANY_CORNERS);
-        let mut corners: Vec<_> = large
-            .flat_map(|face| {
-                let degree = mesh.degree(face);
-                mesh.face_vertices(face).enumerate().map(move |(place, vertex)| (vertex, face, place, degree))
-            })
-            .collect();
-        corners.sort_unstable();
-        Self { corners }
-    }
-
-    fn at(&self, vertex: VertexId) -> &[(VertexId, FaceId, usize, usize)] {
-        let start = self.corners.partition_point(|corner| corner.0 < vertex);
-        let end = start + self.corners[start..].iter().take_while(|corner| corner.0 == vertex).count();
-        &self.corners[start..end]
-    }
-
-    /// The faces that have both vertices, without an edge of theirs between.
-    fn with(&self, [a, b]: [VertexId; 2]) -> impl Iterator<Item = FaceId> + '_ {
-        let others = self.at(b);
-        self.at(a).iter().filter_map(move |&(_, face, place, degree)| {
-            let other = others.iter().find(|other| other.1 == face)?.2;
-            let apart = place.abs_diff(other);
-            (apart > 1 && apart + 1 < degree).then_some(face)
-        })
-    }
-
-    /// A pair for every two of these faces that share one. Among six vertices that both have there are two that neither joins by an
-    /// edge, if any are.
-    fn among_themselves(&self, keys: &mut Vec<([VertexId; 2], FaceId)>) {
-        const ENOUGH: usize = 6;
-        let mut shared: HashMap<[FaceId; 2], Vec<VertexId>> = HashMap::new();
-        for group in self.corners.chunk_by(|a, b| a.0 == b.0) {
-            for (i, first) in group.iter().enumerate() {
-                for second in &group[i + 1..] {
-                    let vertices = shared.entry([first.1, second.1]).or_default();
-                    if vertices.len() < ENOUGH {
-                        vertices.push(first.0);
-                    }
-                }
-            }
-        }
-        for (faces, vertices) in shared {
-            let pairs =
-                vertices.iter().enumerate().flat_map(|(i, &a)| vertices[..i].iter().map(move |&b| [b, a]));
-            let found =
-                pairs.into_iter().find(|&pair| faces.iter().all(|&face| self.with(pair).any(|f| f == face)));
-            keys.extend(found.into_iter().flat_map(|pair| faces.map(|face| (pair, face))));
-        }
-    }
-}
-
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
     /// A ring of `n` quads around one face with `n` corners.
@@ -233,6 +183,57 @@ mod tests {
             let exempt = Exempt::find(&mesh);
             assert_eq!(exempt.impossible(), [FaceId(0)], "{n}");
             assert_eq!(exempt.faces(), [FaceId(1), FaceId(2)], "{n}");
+        }
+    }
+
+    /// `faces` around vertex 0, each with `degree` corners and an edge in common with the next, but for the last and the first.
+    pub(super) fn fan(faces: u32, degree: u32) -> QuadMesh {
+        let outer = degree - 2;
+        let vertices = 1 + faces * outer + 1;
+        let positions: Vec<[f64; 3]> = (0..vertices)
+            .map(|v| {
+                let angle = 6.0 * f64::from(v) / f64::from(vertices);
+                if v == 0 { [0.0; 3] } else { [angle.cos(), angle.sin(), 0.0] }
+            })
+            .collect();
+        let faces =
+            (0..faces).map(|k| std::iter::once(0).chain(1 + k * outer..=1 + (k + 1) * outer).collect());
+        QuadMesh::from_slices(&positions, faces.collect::<Vec<Vec<u32>>>()).expect("a fan")
+    }
+
+    /// Whether a diagonal is an edge too takes a look or two, even of those that end in a vertex of very many quads.
+    #[test]
+    fn a_pole_takes_no_more_than_other_vertices() {
+        for count in [100, 5000] {
+            let mesh = fan(count, 4);
+            let pairs = mesh.faces().flat_map(|face| diagonals(&mesh, face));
+            let looks: usize = pairs.map(|(pair, _)| neighbors_of_both(&mesh, pair).count()).sum();
+            assert!(looks <= 10 * count as usize, "{count} quads, {looks} looks");
+            assert!(Exempt::find(&mesh).is_empty());
+        }
+    }
+
+    /// Slices of a sphere from pole to pole, all but one: every one has the same two vertices without an edge between.
+    pub(super) fn slices(count: u32, inner: u32) -> QuadMesh {
+        let line = |k: u32| 2 + (k * inner)..2 + (k + 1) * inner;
+        let positions: Vec<[f64; 3]> = (0..2 + (count + 1) * inner)
+            .map(|v| [f64::from(v).cos(), f64::from(v).sin(), f64::from(v)])
+            .collect();
+        let slice = |k: u32| {
+            let there = std::iter::once(0).chain(line(k));
+            there.chain(std::iter::once(1)).chain(line(k + 1).rev()).collect()
+        };
+        QuadMesh::from_slices(&positions, (0..count).map(slice).collect::<Vec<Vec<u32>>>()).expect("slices")
+    }
+
+    /// Large faces that share two vertices are found, two of them or many: from the vertex, and from the face.
+    #[test]
+    fn large_faces_that_share_a_pair_are_impossible() {
+        for (count, inner) in [(2, 3), (2, 12), (2, 400), (40, 12), (2000, 12)] {
+            let exempt = Exempt::find(&slices(count, inner));
+            let all: Vec<FaceId> = (0..count).map(FaceId).collect();
+            assert_eq!(exempt.impossible(), all, "{count} slices");
+            assert!(exempt.faces().is_empty());
         }
     }
 }

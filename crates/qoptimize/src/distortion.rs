@@ -28,7 +28,7 @@ mod tally;
 
 pub use benchmark::Benchmark;
 pub use error::MeasureError;
-pub(crate) use error::{check, check_arrays, first};
+pub(crate) use error::{check, check_arrays, check_polygons, first};
 pub use faces::{FaceMeasure, FaceMeasures, measure_faces, measure_worst_faces};
 use qembed::qmesh::{PolygonView, Vec2};
 use rayon::prelude::*;
@@ -279,28 +279,4 @@ fn best_scale(ratios: &[f64]) -> f64 {
     let x = fixed_sum(ratios, |r| r) / fixed_sum(ratios, |r| r * r);
     let x = if x > 0.0 { x } else { 0.0 };
     fixed_sum(ratios, |r| (r * x - 1.0).powi(2))
-}
-
-impl Distortion {
-    /// Whether the measures prove that no two faces of the map overlap: it is injective, on its exact coordinates.
-    ///
-    /// The proof: every corner triangle is positive and no polygon winds round twice, so every face is strictly convex
-    /// and covers each of its points once, with the same sign; edges inside the map have exactly two faces that run
-    /// opposite ways and cancel, so how often a point is covered is the winding number of the boundary around it; the
-    /// boundary is one closed curve that neither crosses nor touches itself, so that number is 0 or 1.
-    ///
-    /// `true` needs one island, one boundary loop, and all of `flipped_corners`, `wound_faces`, `nonmanifold_edges`,
-    /// `boundary_pinches` and `boundary_crossings` at 0. `false` is not a proof of the contrary: maps with holes, of
-    /// several islands, or with quads that are concave but not folded can be injective too, and are not decided here.
-    #[must_use]
-    pub fn is_injective(&self) -> bool {
-        self.islands == 1
-            && self.boundary_loops == 1
-            && self.flipped_corners == 0
-            && self.wound_faces == 0
-            && self.nonmanifold_edges == 0
-            && self.boundary_pinches == 0
-            && self.boundary_crossings == 0
-            && self.boundary_crossings_complete
-    }
 }

@@ -165,7 +165,7 @@ pub struct RunRecord {
 /// The observer hears of one stage after the other, each from 0 to 1: those of [`simplify`] and [`embed`] (or
 /// [`embed_classic`]), then `"overlaps"` with [`Method::Paper`], then `"measure"`.
 ///
-/// When the observer [is late](Observer::is_late), [`Method::Direct`] and [`Method::Conformal`] end their descent with the map at hand
+/// When the observer [is late](Observer::is_late), [`Method::Direct`] and [`Method::Conformal`] end start and descent with the map at hand
 /// ([`Stop::Cancelled`](crate::direct::Stop::Cancelled)), which is as valid as any other.
 ///
 /// Overlaps may remain: [`Parameterization::certificate`] proves that there are none, or names them.

@@ -6,9 +6,13 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use qoptimize::direct::{StartError, find_start};
 use qoptimize::qembed::qmesh::charts::cut;
+use qoptimize::qembed::qmesh::shapes::{Hostility, hostile_disk};
 use qoptimize::qembed::qmesh::{Observer, Polygons, QuadMesh, Seams, shapes};
-use qoptimize::{AtlasError, AtlasOptions, Method, Options, atlas};
+use qoptimize::{
+    AtlasError, AtlasOptions, Exempt, Method, Options, ParameterizeError, Stop, atlas, certify, parameterize,
+};
 
 /// Calls of the observer, counted; the one with number `stop` (from 0) and all later ones ask to stop.
 fn run(
@@ -180,4 +184,64 @@ fn time_may_be_up_at_any_moment() {
     assert!(maps > 60, "{maps} maps");
     let (none, _) = timed(&meshes()[0].1, &options()[0].1, 0);
     assert_eq!(none.unwrap_err(), AtlasError::OutOfTime);
+}
+
+/// The start asks before each of its systems: whoever breaks at any of its questions, even once, is asked no more, and gets the best
+/// valid map so far, or none where there is none yet.
+#[test]
+fn starts_can_be_stopped_between_systems() {
+    let (mut questions, mut maps) = (0, 0);
+    for mesh in
+        [shapes::finger(4, 60), hostile_disk(Hostility::Fingers, 1), hostile_disk(Hostility::Fingers, 2)]
+    {
+        let exempt = Exempt::find(&mesh);
+        let started = |stop: usize| {
+            let calls = AtomicUsize::new(0);
+            let observer = |stage: &'static str, fraction: f64| {
+                assert!(["start", "untangle"].contains(&stage), "{stage}");
+                assert!((0.0..=1.0).contains(&fraction), "{fraction} is no fraction");
+                let call = calls.fetch_add(1, Ordering::SeqCst);
+                if call == stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            };
+            (find_start(&mesh, &exempt, &observer), calls.into_inner())
+        };
+        let (whole, calls) = started(usize::MAX);
+        assert!(whole.is_ok() && calls > 0, "{calls} questions");
+        questions += calls;
+        for stop in 0..calls {
+            let (start, asked) = started(stop);
+            assert_eq!(asked, stop + 1);
+            match start {
+                Ok(start) => {
+                    let certificate = certify(mesh.view(), &mesh.to_corners(&start.uv), 1).unwrap();
+                    assert!(certificate.holds, "stopped at {stop}: {certificate}");
+                    maps += 1;
+                }
+                Err(error) => assert_eq!(error, StartError::Cancelled),
+            }
+        }
+    }
+    assert!(questions > 10 && maps > 5, "{questions} questions, {maps} maps");
+}
+
+/// Time that is up during the start leaves a valid map, too.
+#[test]
+fn time_may_be_up_during_the_start() {
+    let mesh = shapes::finger(4, 60);
+    let timed = |late: usize| {
+        let clock = Clock { looks: AtomicUsize::new(0), late };
+        let map = parameterize(&mesh, &Options::default(), &clock);
+        (map, clock.looks.into_inner())
+    };
+    for late in 0..8 {
+        match timed(late).0 {
+            Ok(map) => {
+                let stop = map.record.direct.map(|direct| direct.descent.stop);
+                assert!(map.certificate.holds && stop == Some(Stop::Cancelled), "late at {late}: {stop:?}");
+            }
+            Err(error) => {
+                assert!(late < 4 && error == ParameterizeError::OutOfTime, "late at {late}: {error}");
+            }
+        }
+    }
 }

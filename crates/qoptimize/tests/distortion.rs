@@ -6,7 +6,12 @@ use common::{Measures, Random, random_map, slow_measures};
 use proptest::prelude::*;
 use qoptimize::distortion::{Distortion, MeasureError, measure, measure_faces, measure_worst_faces};
 use qoptimize::qmesh::nalgebra::Rotation2;
-use qoptimize::qmesh::{Polygons, QuadMesh, Vec2, Vec3, shapes};
+use qoptimize::qmesh::{PolygonView, Polygons, QuadMesh, Vec2, Vec3, shapes};
+use qoptimize::{certify, judge};
+
+fn is_certified(polygons: PolygonView<'_>, uv: &[Vec2]) -> bool {
+    certify(polygons, uv, 1).is_ok_and(|certificate| certificate.holds)
+}
 
 fn by_name(d: &Distortion) -> Measures {
     let counts = [
@@ -136,14 +141,14 @@ proptest! {
         }
     }
 
-    /// A map that is found injective covers no point twice: the signed areas of its faces, all positive, sum to the
+    /// A map that is certified, without concave corners, covers no point twice: the signed areas of its faces, all positive, sum to the
     /// area inside its one boundary curve, and no two faces share an interior point (here: no center of a corner
     /// triangle lies in another face).
     #[test]
     fn injective_means_no_face_on_another(seed: u64, noise in 0_u32..5) {
         let (polygons, uv) = random_map(seed, noise, false);
         let found = measure(polygons.view(), &uv).unwrap();
-        if found.is_injective() {
+        if found.flipped_corners == 0 && is_certified(polygons.view(), &uv) {
             let view = polygons.view();
             let inside = |face: usize, p: Vec2| {
                 let c: Vec<usize> = view.corners(face).collect();
@@ -169,7 +174,8 @@ proptest! {
 #[test]
 fn identity_has_no_distortion() {
     let mesh = shapes::jittered_grid(9, 7, 0.25, 3);
-    let found = measure(mesh.view(), &corner_uv(&mesh, |p| p.xy() * 5.0)).unwrap();
+    let uv = corner_uv(&mesh, |p| p.xy() * 5.0);
+    let found = measure(mesh.view(), &uv).unwrap();
     let near =
         |value: f64, expected: f64| assert!((value - expected).abs() < 1e-12, "{value}, expected {expected}");
     near(found.angle_error, 0.0);
@@ -187,7 +193,7 @@ fn identity_has_no_distortion() {
     near(found.benchmark.max_angle_distortion.unwrap(), 0.0);
     near(found.benchmark.average_area_discrepancy, 0.0);
     near(found.benchmark.average_angle_discrepancy, 0.0);
-    assert!(found.is_injective());
+    assert!(is_certified(mesh.view(), &uv));
 }
 
 /// The blind spot of the paper's errors: squares stretched λ × 1/λ along their edges keep every corner angle and
@@ -239,7 +245,7 @@ fn a_concave_and_a_folded_quad() {
     let concave = moved(0.7, 0.7);
     assert_eq!((concave.flipped_corners, concave.flipped_faces, concave.folded_faces), (1, 1, 0));
     assert_eq!(concave.newly_flipped_corners, 1);
-    assert!(!concave.is_injective());
+    assert!(!is_certified(mesh.view(), &place(center + Vec2::new(0.7, 0.7) * cell)));
     // Beyond the next quad: no diagonal helps.
     assert!(moved(2.4, 0.3).folded_faces > 0);
     // Onto a neighbour: two quads with an edge of no length, and no triangle at its ends.
@@ -258,8 +264,8 @@ fn a_pentagram_is_not_injective() {
     let uv = |step: usize| [0, 1, 2, 3, 4].map(|i| Vec2::from(point(i, step)));
     let star = measure(pentagon.view(), &uv(2)).unwrap();
     assert_eq!((star.flipped_corners, star.wound_faces, star.boundary_crossings), (0, 1, 5));
-    assert!(!star.is_injective());
-    assert!(measure(pentagon.view(), &uv(1)).unwrap().is_injective());
+    assert!(!is_certified(pentagon.view(), &uv(2)));
+    assert!(is_certified(pentagon.view(), &uv(1)));
 }
 
 /// A strip of positive quads wound round a center by more than a full turn: no flip, but the ends cross.
@@ -271,13 +277,13 @@ fn a_spiral_is_locally_but_not_globally_injective() {
             let (t, radius) = (-turns * std::f64::consts::TAU * p.x, 3.0 + p.y);
             Vec2::new(t.cos(), t.sin()) * radius
         };
-        measure(mesh.view(), &corner_uv(&mesh, wind)).unwrap()
+        judge(mesh.view(), &corner_uv(&mesh, wind), 1).unwrap()
     };
     let width = mesh.positions().iter().map(|p| p.x).fold(0.0, f64::max);
-    let crossing = spiral(1.1 / width);
+    let (crossing, certificate) = spiral(1.1 / width);
     assert_eq!((crossing.flipped_corners, crossing.boundary_loops), (0, 1));
-    assert!(crossing.boundary_crossings > 0 && !crossing.is_injective());
-    assert!(spiral(0.9 / width).is_injective());
+    assert!(crossing.boundary_crossings > 0 && !certificate.holds);
+    assert!(spiral(0.9 / width).1.holds);
 }
 
 /// Three quads at one edge, a face turned over, an island apart: counted, never refused.
@@ -308,7 +314,7 @@ fn any_soup_is_measured() {
     let uv: Vec<Vec2> = soup.corner_vertex.iter().map(|&v| soup.positions[v as usize].xy()).collect();
     let found = measure(soup.view(), &uv).unwrap();
     assert_eq!(found.faces, 7);
-    assert!(found.nonmanifold_edges > 0 && !found.is_injective());
+    assert!(found.nonmanifold_edges > 0 && !is_certified(soup.view(), &uv));
     assert!(by_name(&found).values().all(|value| value.is_finite()));
 }
 

@@ -2,7 +2,7 @@
 
 use qoptimize::direct::{DescentOptions, Objective, Wishes, embed};
 use qoptimize::qmesh::{QuadMesh, shapes};
-use qoptimize::{AngleTerm, Method, Options, ScaffoldEnd, measure, parameterize};
+use qoptimize::{AngleTerm, Method, Options, ScaffoldEnd, certify, parameterize};
 
 fn overlapping() -> Vec<(&'static str, QuadMesh)> {
     vec![
@@ -19,8 +19,8 @@ fn boundaries_that_would_meet_are_kept_apart() {
     for (name, mesh) in overlapping() {
         let (uv, report) =
             embed(&mesh, &Objective::default(), &Wishes::default(), &DescentOptions::default(), &()).unwrap();
-        let distortion = measure(mesh.view(), &mesh.to_corners(&uv)).unwrap();
-        assert!(distortion.is_injective(), "{name}: {distortion:?}");
+        let certificate = certify(mesh.view(), &mesh.to_corners(&uv), 1).unwrap();
+        assert!(certificate.holds, "{name}: {certificate}");
         let repair = report.boundary_repair.expect(name);
         assert!(repair.free_crossings > 0, "{name}: {repair:?}");
         assert_eq!(repair.end, ScaffoldEnd::Converged, "{name}: {repair:?}");
@@ -30,7 +30,7 @@ fn boundaries_that_would_meet_are_kept_apart() {
     }
 }
 
-/// Every objective, and also after normalisation: the measures prove it on the coordinates that the caller gets.
+/// Every objective, and also after normalisation: the certificate proves it on the coordinates that the caller gets.
 #[test]
 fn every_objective_is_kept_clear() {
     let mesh = shapes::ramp(1.3, 30, 2);
@@ -43,7 +43,7 @@ fn every_objective_is_kept_clear() {
         let mut options = Options { method, q, ..Options::default() };
         options.direct.angle_term = angle_term;
         let map = parameterize(&mesh, &options, &()).unwrap();
-        assert!(map.distortion.is_injective(), "{method:?} {q}: {:?}", map.record.direct);
+        assert!(map.certificate.holds, "{method:?} {q}: {:?}", map.record.direct);
     }
 }
 
@@ -62,12 +62,12 @@ fn stopping_leaves_a_clear_map() {
         let (uv, report) =
             embed(&mesh, &Objective::default(), &Wishes::default(), &DescentOptions::default(), &observer)
                 .unwrap();
-        let distortion = measure(mesh.view(), &mesh.to_corners(&uv)).unwrap();
+        let certificate = certify(mesh.view(), &mesh.to_corners(&uv), 1).unwrap();
         assert!(report.boundary_repair.is_some() || limit < 20, "{limit}");
-        (distortion, calls.into_inner())
+        (certificate, calls.into_inner())
     };
     let total = run(usize::MAX).1;
     for limit in (0..total).step_by(9) {
-        assert!(run(limit).0.is_injective(), "stopped at report {limit}");
+        assert!(run(limit).0.holds, "stopped at report {limit}");
     }
 }

@@ -1,9 +1,12 @@
-//! What callers ask of a map besides low distortion: held boundaries and pins.
+//! What callers ask of a map besides low distortion: held boundaries, pins, kept UVs.
 
 use qoptimize::direct::{DescentOptions, Objective, Wishes, embed};
 use qoptimize::qembed::{BoundaryShape, EmbedError, place_boundary};
-use qoptimize::qmesh::{QuadMesh, Vec2, VertexData, VertexId, shapes};
-use qoptimize::{DirectReport, Method, Options, ParameterizeError, certify, parameterize};
+use qoptimize::qmesh::{PolygonView, Polygons, QuadMesh, Repairs, Seams, Vec2, VertexData, VertexId, shapes};
+use qoptimize::{
+    AtlasError, AtlasOptions, Continuation, DirectReport, Method, Options, ParameterizeError, atlas, certify,
+    parameterize,
+};
 
 type Made = Result<(VertexData<Vec2>, DirectReport), ParameterizeError>;
 
@@ -172,4 +175,61 @@ fn methods_that_need_positions_refuse_a_free_boundary() {
     let options = Options { method: Method::Paper, boundary: BoundaryShape::Free, ..Options::default() };
     let error = parameterize(&shapes::grid(3, 3), &options, &()).unwrap_err();
     assert_eq!(error, ParameterizeError::Embed(EmbedError::NoFreeBoundary));
+}
+
+fn unwrapped(polygons: PolygonView<'_>, keep: Vec<Option<Vec2>>) -> Result<atlas::Atlas, AtlasError> {
+    let options = AtlasOptions { keep, ..AtlasOptions::default() };
+    atlas::unwrap(polygons, &Seams::default(), &options, &())
+}
+
+/// A list of kept UVs that is not as long as there are corners is refused, by every way in, with both numbers.
+#[test]
+fn kept_uvs_are_one_per_corner() {
+    let mesh = shapes::grid(3, 2);
+    let corners = mesh.corner_count();
+    for found in [1, corners - 1, corners + 1] {
+        for kept in [Some(Vec2::zeros()), None] {
+            let refusal = AtlasError::KeptCount { expected: corners, found };
+            assert_eq!(unwrapped(mesh.view(), vec![kept; found]).unwrap_err(), refusal);
+            let options = AtlasOptions { keep: vec![kept; found], ..AtlasOptions::default() };
+            let (view, repairs) = (mesh.view(), Repairs::default());
+            let charts = atlas::unwrap_charts(view, Vec::new(), repairs.clone(), &options, &());
+            assert_eq!(charts.unwrap_err(), refusal);
+            let mut before: Vec<Continuation> = Vec::new();
+            let series = atlas::unwrap_charts_from(&mut before, view, Vec::new(), repairs, &options, &());
+            assert_eq!(series.unwrap_err(), refusal);
+            assert!(atlas::kept_seams(view, &options.keep).is_empty());
+        }
+    }
+}
+
+/// Keeping nothing, corner by corner, is keeping nothing.
+#[test]
+fn kept_uvs_may_all_be_none() {
+    let (near, far) = (shapes::grid(3, 2), shapes::bump(4, 0.5));
+    let mut two = near.view().to_polygons();
+    let before = two.positions.len() as u32;
+    two.positions.extend(far.view().positions.iter().map(|p| p.add_scalar(9.0)));
+    for face in 0..far.view().face_count() {
+        let face: Vec<u32> = far.view().face(face).iter().map(|v| v + before).collect();
+        two.push_face(&face);
+    }
+    for polygons in [near.view().to_polygons(), two] {
+        let nothing = unwrapped(polygons.view(), Vec::new()).unwrap();
+        let none = unwrapped(polygons.view(), vec![None; polygons.view().corner_count()]).unwrap();
+        assert!(none.certificate.holds && none.uv == nothing.uv && none.layout == nothing.layout);
+    }
+}
+
+/// Polygons that contradict themselves are refused, whatever they are to keep.
+#[test]
+fn kept_uvs_of_broken_polygons_are_refused() {
+    let good = shapes::grid(2, 1).view().to_polygons();
+    let beyond =
+        Polygons { corner_vertex: good.corner_vertex.iter().map(|v| v + 3).collect(), ..good.clone() };
+    let torn = Polygons { face_start: vec![0, 9, 4, 8], ..good.clone() };
+    for broken in [beyond, torn] {
+        let keep = vec![Some(Vec2::zeros()); broken.view().corner_count()];
+        assert!(matches!(unwrapped(broken.view(), keep), Err(AtlasError::Build(_))));
+    }
 }

@@ -5,20 +5,17 @@ use qembed::qmesh::{Chart, Observer, PolygonView, Seams, Vec2, VertexId};
 use super::AtlasError;
 use super::solve::{Solved, alone};
 use crate::direct::Continuation;
-use crate::distortion::measure;
+use crate::distortion::{check_polygons, measure};
 use crate::parameterize::{Options, RunRecord};
 
-/// For each corner of the polygons the UV that it keeps; empty when none does.
+/// For each corner of the polygons the UV that it keeps; may be empty when none does.
 type Kept = [Option<Vec2>];
 
 /// The seams without which some UVs could not be kept: where those of two faces differ, and where the rest would have to meet several
-/// at one vertex.
-///
-/// # Panics
-/// When `kept` is not empty and has not one entry per corner.
+/// at one vertex. None where `kept` has not one entry per corner, or the polygons contradict themselves: [`unwrap`](super::unwrap) says so.
 #[must_use]
 pub fn kept_seams(polygons: PolygonView<'_>, kept: &Kept) -> Seams {
-    if kept.is_empty() {
+    if kept.len() != polygons.corner_count() || check_polygons(polygons).is_err() {
         return Seams::default();
     }
     let differ = |a: usize, b: usize| matches!((kept[a], kept[b]), (Some(p), Some(q)) if p != q);

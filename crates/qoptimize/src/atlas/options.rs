@@ -65,7 +65,7 @@ pub struct AtlasOptions {
     /// Turn islands so that this axis points up. `None`, the default: y where there are several islands, none where there is
     /// one.
     pub up: Option<UpAxis>,
-    /// For each corner of the polygons the UV that it keeps; empty, the default, when none does. Faces with such corners have them all.
+    /// For each corner of the polygons the UV that it keeps; empty, the default, when none does, which is the same as `None` for each. Faces with such corners have them all.
     /// The rest of their island is mapped to meet them, by a method that can hold pins; other islands are laid out above theirs, at
     /// their mean density. Charts have to be cut at [`kept_seams`](super::kept_seams).
     #[cfg_attr(feature = "serde", serde(skip))]
@@ -126,6 +126,16 @@ pub enum AtlasError {
     /// Islands that are to be cut further have no vertices yet whose places could be given.
     #[error("further cuts exclude {0}")]
     CutsExclude(&'static str),
+    /// Not one entry of what is kept per corner.
+    #[error(
+        "there are {found} kept UVs, or places for them, for {expected} corners: one per corner is needed"
+    )]
+    KeptCount {
+        /// Corners of the polygons.
+        expected: usize,
+        /// Entries given.
+        found: usize,
+    },
     /// A face that is to keep its UVs is turned over there, or has no area.
     #[error("face {face} cannot keep its UVs: it is turned over in the plane, or has no area there")]
     KeptFaceFlipped {
@@ -161,22 +171,31 @@ impl AtlasError {
 }
 
 impl AtlasOptions {
-    pub(super) fn check(&self) -> Result<(), AtlasError> {
+    /// Whether any corner keeps its UV.
+    pub(super) fn keeps_any(&self) -> bool {
+        self.keep.iter().any(Option::is_some)
+    }
+
+    /// Whether they are in range, for polygons with so many corners.
+    pub(super) fn check(&self, corner_count: usize) -> Result<(), AtlasError> {
         self.map.check().map_err(AtlasError::Options)?;
+        if !self.keep.is_empty() && self.keep.len() != corner_count {
+            return Err(AtlasError::KeptCount { expected: corner_count, found: self.keep.len() });
+        }
         let refuse = |option, value, expected| Err(AtlasError::BadOption { option, value, expected });
         if let Some(bound) = self.max_stretch
             && !(bound > 1.0 && bound.is_finite())
         {
             return refuse("the largest stretch", bound, "a number above 1");
         }
-        if self.keep.iter().any(Option::is_some) && !self.map.method.minimizes() {
+        if self.keeps_any() && !self.map.method.minimizes() {
             return Err(AtlasError::Options(ParameterizeError::OtherMethod("kept UVs")));
         }
         let given = [
             (!self.map.pins.is_empty(), "pins"),
             (self.map.symmetric, "symmetric maps"),
             (matches!(self.map.boundary, BoundaryShape::Fixed(_)), "a fixed boundary"),
-            (!self.keep.is_empty(), "kept UVs"),
+            (self.keeps_any(), "kept UVs"),
         ];
         if let Some((_, what)) = given.into_iter().find(|(is_given, _)| *is_given)
             && self.max_stretch.is_some()

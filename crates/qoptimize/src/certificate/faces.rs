@@ -90,41 +90,68 @@ fn shared_diagonals(map: &Map<'_>, bad: &[usize]) -> Vec<(usize, usize)> {
     if bad.is_empty() {
         return Vec::new();
     }
-    let mut partners: HashMap<u32, Vec<u32>> = HashMap::new();
-    let key = |a: u32, b: u32| (a.min(b), a.max(b));
     let diagonal = |face: usize, place: usize| {
         let start = map.polygons.corners(face).start + place;
         key(map.point(start), map.point(start + 2))
     };
-    for pair in bad.iter().flat_map(|&face| [diagonal(face, 0), diagonal(face, 1)]) {
-        partners.entry(pair.0).or_default().push(pair.1);
-    }
+    let wanted = Wanted::new(bad.iter().flat_map(|&face| [diagonal(face, 0), diagonal(face, 1)]));
     // How many faces hold the pair as a diagonal; an edge between its points counts for two.
     let mut times: HashMap<(u32, u32), usize> = HashMap::new();
     let mut place: HashMap<u32, usize> = HashMap::new();
     for face in 0..map.polygons.face_count() {
         let range = map.polygons.corners(face);
-        if !range.clone().any(|corner| partners.contains_key(&map.point(corner))) {
+        if !range.clone().any(|corner| wanted.partners.contains_key(&map.point(corner))) {
             continue;
         }
         place.clear();
         place.extend(range.clone().map(|corner| (map.point(corner), corner - range.start)));
-        let degree = range.len();
-        let mut here: HashSet<(u32, u32)> = HashSet::new();
-        for (&point, &at) in &place {
-            for &other in partners.get(&point).into_iter().flatten() {
-                let Some(&to) = place.get(&other) else { continue };
-                if here.insert((point, other)) {
-                    let apart = at.abs_diff(to);
-                    let is_edge = apart == 1 || apart + 1 == degree;
-                    *times.entry((point, other)).or_default() += if is_edge { 2 } else { 1 };
-                }
-            }
+        for pair in wanted.candidates(&place).filter(|&pair| wanted.has(pair)) {
+            let (Some(&at), Some(&to)) = (place.get(&pair.0), place.get(&pair.1)) else { continue };
+            let apart = at.abs_diff(to);
+            let is_edge = apart == 1 || apart + 1 == range.len();
+            *times.entry(pair).or_default() += if is_edge { 2 } else { 1 };
         }
     }
     let is_shared = |pair: (u32, u32)| times.get(&pair).is_some_and(|&times| times > 1);
     let diagonals = bad.iter().flat_map(|&face| [(face, 0), (face, 1)]);
     diagonals.filter(|&(face, place)| is_shared(diagonal(face, place))).collect()
+}
+
+fn key(a: u32, b: u32) -> (u32, u32) {
+    (a.min(b), a.max(b))
+}
+
+/// Pairs of points to look for in faces.
+struct Wanted {
+    /// The higher points, by the lower.
+    partners: HashMap<u32, HashSet<u32>>,
+}
+
+impl Wanted {
+    /// Each of `pairs` has its lower point first.
+    fn new(pairs: impl Iterator<Item = (u32, u32)>) -> Self {
+        let mut partners: HashMap<u32, HashSet<u32>> = HashMap::new();
+        for (lower, higher) in pairs {
+            partners.entry(lower).or_default().insert(higher);
+        }
+        Self { partners }
+    }
+
+    fn has(&self, (lower, higher): (u32, u32)) -> bool {
+        self.partners.get(&lower).is_some_and(|partners| partners.contains(&higher))
+    }
+
+    /// What may be among the pairs and between points of the face `place`: of each point its partners or the face's other points, which
+    /// there are fewer of. A pole has a partner in each face around it, but each face has few points.
+    fn candidates<'a>(&'a self, place: &'a HashMap<u32, usize>) -> impl Iterator<Item = (u32, u32)> + 'a {
+        let of_point = |&point: &u32| self.partners.get(&point).map(|partners| (point, partners));
+        place.keys().filter_map(of_point).flat_map(move |(point, partners)| {
+            let are_few = partners.len() < place.len();
+            let few = are_few.then_some(partners).into_iter().flatten();
+            let others = (!are_few).then(|| place.keys()).into_iter().flatten();
+            few.chain(others).map(move |&other| (point, other))
+        })
+    }
 }
 
 /// 1 for a simple polygon that runs counter-clockwise, −1 for a simple one that runs clockwise, 0 for one that is not simple:
@@ -188,6 +215,25 @@ fn crosses_itself(points: &[Vec2]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Around a pole each quad has a pair of its own there: looking for all pairs takes a few looks in each, not as many as there are pairs.
+    #[test]
+    fn a_pole_takes_a_few_looks_in_each_face() {
+        let count = 1000;
+        let wanted = Wanted::new((0..count).map(|k| (0, 1 + k)));
+        let mut looks = 0;
+        for k in 0..count {
+            let place = [0, count + 1 + k, 1 + k, count + 1 + (k + 1) % count];
+            let place: HashMap<u32, usize> =
+                place.iter().zip(0..).map(|(&point, place)| (point, place)).collect();
+            looks += wanted.candidates(&place).count();
+            let found: Vec<_> = wanted.candidates(&place).filter(|&pair| wanted.has(pair)).collect();
+            assert_eq!(found, [(0, 1 + k)]);
+        }
+        assert!(looks <= 4 * count as usize, "{looks} looks");
+        let all: HashMap<u32, usize> = (0..=2 * count).zip(0..).collect();
+        assert_eq!(wanted.candidates(&all).filter(|&pair| wanted.has(pair)).count(), count as usize);
+    }
 
     fn sign(points: &[[i32; 2]]) -> i32 {
         let points: Vec<Vec2> = points.iter().map(|p| Vec2::new(f64::from(p[0]), f64::from(p[1]))).collect();

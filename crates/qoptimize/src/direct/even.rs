@@ -13,7 +13,7 @@ use super::rest::Rest;
 /// A map is crowded when surface lies this much denser than on average, in the mean over the surface.
 const CROWDED: f64 = 8.0;
 /// Solutions at most.
-const MAX_ROUNDS: usize = 10;
+pub(super) const MAX_ROUNDS: usize = 10;
 /// A round that betters the crowding by less than this factor is the last.
 const LEAST_GAIN: f64 = 1.15;
 /// Weights stay within this factor of their geometric mean: what a factorization bears.

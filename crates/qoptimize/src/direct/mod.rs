@@ -110,7 +110,8 @@ pub enum AngleTerm {
     /// `log²(θ/φ)`: elliptic for stretches s1/s2 up to 10 when `shape ≥ q`, up to 20 when `shape ≥ 1.5 q`.
     #[default]
     Log,
-    /// `(θ/φ − 1)²`, Eq. 13 itself: elliptic only up to s1/s2 = 3 at q = 0.5, shape = 1. For coarse meshes.
+    /// `(θ/φ − 1)²`, Eq. 13 itself: elliptic only up to s1/s2 = 2 when `shape ≥ 0.9 q`, as by default, up to 3 when `shape ≥ 2.1 q`. For
+    /// coarse meshes.
     Paper,
 }
 

@@ -148,84 +148,128 @@ pub(super) fn descend(
     options: &DescentOptions,
     observer: &dyn Observer,
 ) -> Result<Descent, DescentError> {
-    let mut descent = Descent {
+    let descent = Descent {
         steps: 0,
         iterations: 0,
         energy_before: f64::INFINITY,
         energy: f64::INFINITY,
         stop: Stop::MaxSteps,
     };
-    let mut lagged = false;
-    let mut may_be_slow = rest.constraint.is_open();
-    let mut memory = Memory::default();
-    loop {
-        hessian.reconsider()?;
-        let (energy, gradient) =
-            energy::derivatives(objective, rest, hessian, uv).map_err(DescentError::InvalidStart)?;
-        descent.energy = energy;
-        if descent.steps == 0 {
-            descent.energy_before = energy;
-        }
-        if descent.steps == options.max_steps {
-            return Ok(descent);
-        }
-        let fraction = descent.steps as f64 / options.max_steps as f64;
-        if let ControlFlow::Break(()) = observer.progress("minimise", fraction) {
-            return Ok(Descent { stop: Stop::Cancelled, ..descent });
-        }
-        let gradient = rest.constraint.restrict(hessian, gradient);
-        let least = options.relative_decrease * energy + ENERGY_FLOOR;
-        let accuracy = Accuracy { residual: ENOUGH_RESIDUAL, decisive: DECISIVE * 2.0 * least };
-        let solved = match hessian.newton_direction(uv, &gradient, accuracy, lagged) {
-            Ok(solved) => solved,
-            Err(error) if hessian.is_factored() => return Err(error),
-            Err(_) => {
-                hessian.give_up_iterations()?;
-                continue;
+    let way = Way {
+        rest,
+        hessian,
+        objective,
+        options,
+        observer,
+        descent,
+        memory: Memory::default(),
+        lagged: false,
+        may_be_slow: rest.constraint.is_open(),
+    };
+    way.down(uv)
+}
+
+/// The way down, as far as it was gone.
+struct Way<'a> {
+    rest: &'a Rest,
+    hessian: &'a mut Hessian,
+    objective: &'a Objective,
+    options: &'a DescentOptions,
+    observer: &'a dyn Observer,
+    descent: Descent,
+    memory: Memory,
+    /// Whether the preconditioner may stay.
+    lagged: bool,
+    may_be_slow: bool,
+}
+
+impl Way<'_> {
+    fn down(mut self, uv: &mut [Vec2]) -> Result<Descent, DescentError> {
+        loop {
+            if let Some(stop) = self.step(uv)? {
+                return Ok(Descent { stop, ..self.descent });
             }
-        };
-        let solved_iterations = solved.iterations;
-        descent.iterations += solved.iterations;
-        let Solved { mut direction, decrement, missing, .. } = solved;
-        let decrement = rest.constraint.project(&mut direction, &gradient, decrement);
+        }
+    }
+
+    /// One step, or what leads to a better one; why there is none, where there is none.
+    fn step(&mut self, uv: &mut [Vec2]) -> Result<Option<Stop>, DescentError> {
+        self.hessian.reconsider()?;
+        let (energy, gradient) = energy::derivatives(self.objective, self.rest, self.hessian, uv)
+            .map_err(DescentError::InvalidStart)?;
+        self.descent.energy = energy;
+        if self.descent.steps == 0 {
+            self.descent.energy_before = energy;
+        }
+        if self.descent.steps == self.options.max_steps {
+            return Ok(Some(Stop::MaxSteps));
+        }
+        let fraction = self.descent.steps as f64 / self.options.max_steps as f64;
+        if let ControlFlow::Break(()) = self.observer.progress("minimise", fraction) {
+            return Ok(Some(Stop::Cancelled));
+        }
+        let gradient = self.rest.constraint.restrict(self.hessian, gradient);
+        let least = self.options.relative_decrease * energy + ENERGY_FLOOR;
+        let Some(solved) = self.solve(uv, &gradient, least)? else { return Ok(None) };
+        let Solved { mut direction, decrement, missing, iterations } = solved;
+        self.descent.iterations += iterations;
+        let decrement = self.rest.constraint.project(&mut direction, &gradient, decrement);
         if 0.5 * (decrement + missing) <= least {
-            return Ok(Descent { stop: Stop::Converged, ..descent });
+            return Ok(Some(Stop::Converged));
         }
-        let joint = memory.conjugate(&mut direction, &gradient, decrement);
-        let is_slow = match line_search(rest, uv, objective, &direction, energy, joint) {
-            Some(moved) => {
-                let fell = (energy - moved.energy) / energy;
-                lagged = moved.step >= LAG_STEP && fell <= LAG_DECREASE;
-                if fell <= CALM && moved.step >= LEAST_CALM_STEP {
-                    memory.remember(gradient, direction, decrement);
-                } else {
-                    memory.forget();
-                }
-                if moved.step < SHORT && solved_iterations > 0 {
-                    hessian.factorize_unless_huge()?;
-                }
-                may_be_slow && fell <= SLOW_DECREASE && solved_iterations >= MANY_ITERATIONS
-            }
-            // A direction from an old preconditioner or an old direction may be a poor one.
-            None if lagged || !memory.is_empty() => {
-                lagged = false;
-                memory.forget();
-                continue;
-            }
-            None => return Ok(Descent { stop: Stop::Stalled, ..descent }),
+        let joint = self.memory.conjugate(&mut direction, &gradient, decrement);
+        let Some(moved) = line_search(self.rest, uv, self.objective, &direction, energy, joint) else {
+            return Ok(self.after_no_step());
         };
-        descent.steps += 1;
-        if is_slow && !hessian.is_factored() {
-            let most = options.max_steps - descent.steps;
-            let walked = slow::walk(rest, hessian, uv, objective, options, most, observer)?;
-            descent.steps += walked.steps;
-            descent.energy = walked.energy;
-            if walked.stop != Stop::Stalled {
-                return Ok(Descent { stop: walked.stop, ..descent });
-            }
-            (may_be_slow, lagged) = (false, false);
-            memory.forget();
+        self.descent.steps += 1;
+        let fell = (energy - moved.energy) / energy;
+        self.lagged = moved.step >= LAG_STEP && fell <= LAG_DECREASE;
+        if fell <= CALM && moved.step >= LEAST_CALM_STEP {
+            self.memory.remember(gradient, direction, decrement);
+        } else {
+            self.memory.forget();
         }
+        if moved.step < SHORT && iterations > 0 {
+            self.hessian.factorize_unless_huge()?;
+        }
+        let is_slow = self.may_be_slow && fell <= SLOW_DECREASE && iterations >= MANY_ITERATIONS;
+        if is_slow && !self.hessian.is_factored() { self.slowly(uv) } else { Ok(None) }
+    }
+
+    /// The Newton system at `uv`; `None` when iterations fail, which are given up then.
+    fn solve(&mut self, uv: &[Vec2], gradient: &[f64], least: f64) -> Result<Option<Solved>, DescentError> {
+        let accuracy = Accuracy { residual: ENOUGH_RESIDUAL, decisive: DECISIVE * 2.0 * least };
+        match self.hessian.newton_direction(uv, gradient, accuracy, self.lagged) {
+            Ok(solved) => Ok(Some(solved)),
+            Err(error) if self.hessian.is_factored() => Err(error),
+            Err(_) => {
+                self.hessian.give_up_iterations()?;
+                Ok(None)
+            }
+        }
+    }
+
+    /// A direction from an old preconditioner or an old direction may be a poor one: only without them this is the end.
+    fn after_no_step(&mut self) -> Option<Stop> {
+        let may_be_poor = self.lagged || !self.memory.is_empty();
+        self.lagged = false;
+        self.memory.forget();
+        (!may_be_poor).then_some(Stop::Stalled)
+    }
+
+    /// The rest of the way without systems, as far as that leads.
+    fn slowly(&mut self, uv: &mut [Vec2]) -> Result<Option<Stop>, DescentError> {
+        let most = self.options.max_steps - self.descent.steps;
+        let walked =
+            slow::walk(self.rest, self.hessian, uv, self.objective, self.options, most, self.observer)?;
+        self.descent.steps += walked.steps;
+        self.descent.energy = walked.energy;
+        if walked.stop != Stop::Stalled {
+            return Ok(Some(walked.stop));
+        }
+        (self.may_be_slow, self.lagged) = (false, false);
+        self.memory.forget();
+        Ok(None)
     }
 }
 

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use robust::{Coord, orient2d};
 
 use super::StartError;
-use super::even::evened;
+use super::even::{MAX_ROUNDS, evened};
 use super::rest::{Rest, RestCorner};
 use super::untangle::untangle;
 use crate::convexity::Exempt;
@@ -81,8 +81,12 @@ impl Start {
 
 /// Finds a map of the disk `mesh` to the unit circle in which every corner (but for exempt ones) turns left.
 ///
+/// The observer hears of `"start"` before each further system that is to be solved, and of `"untangle"`; when it asks to stop, the best
+/// map so far is the result.
+///
 /// # Errors
-/// [`StartError::Tangled`] with the place, when none of the three ways leads to one.
+/// [`StartError::Tangled`] with the place, when none of the three ways leads to one; [`StartError::Cancelled`] by the observer before
+/// there was one.
 pub fn find_start(mesh: &QuadMesh, exempt: &Exempt, observer: &dyn Observer) -> Result<Start, StartError> {
     find_start_on(mesh, exempt, &circle(mesh)?, observer)
 }
@@ -109,32 +113,12 @@ pub(super) fn find_start_on(
     observer: &dyn Observer,
 ) -> Result<Start, StartError> {
     let rest = Rest::new(mesh, exempt);
-    let star = star_weights(mesh);
-    let mut best: Option<Weighted> = None;
-    let mut consider = |uv: VertexData<Vec2>, method: StartMethod, weights: &EdgeData<f64>| {
-        if let Some(smallest_corner) = judge(&rest, &uv).valid()
-            && best.as_ref().is_none_or(|best| best.start.smallest_corner < smallest_corner)
-        {
-            best = Some(Weighted { start: Start { uv, method, smallest_corner }, weights: weights.clone() });
-        }
-        best.as_ref().is_some_and(|best| best.start.smallest_corner > THIN)
-    };
-    if !consider(tutte(mesh, boundary, &star)?, StartMethod::Tutte, &star) {
-        let torsion = Torsion::new(mesh)?;
-        for exponent in EXPONENTS {
-            let weights = torsion.weights(mesh, &star, exponent);
-            if let Ok(uv) = tutte(mesh, boundary, &weights)
-                && consider(uv, StartMethod::Torsion, &weights)
-            {
-                break;
-            }
-        }
-    }
+    let mut search = Search { mesh, boundary, rest: &rest, observer, solved: 0, is_stopped: false };
+    let mut best = search.by_weights()?;
     if let Some(found) = best.take_if(|best| best.start.smallest_corner > least_of_its_own(exempt)) {
-        return Ok(found.evened(mesh, boundary, &rest));
+        return Ok(search.evened(found));
     }
-    match (untangled(mesh, boundary, &rest, observer), best.map(|best| best.start)) {
-        (Err(StartError::Cancelled), _) => Err(StartError::Cancelled),
+    match (search.untangled(), best.map(|best| best.start)) {
         (Ok(start), Some(best)) if start.smallest_corner < best.smallest_corner => Ok(best),
         (Err(_), Some(best)) => Ok(best),
         (start, _) => start,
@@ -147,10 +131,69 @@ struct Weighted {
     weights: EdgeData<f64>,
 }
 
-impl Weighted {
-    fn evened(self, mesh: &QuadMesh, boundary: &[(qmesh::VertexId, Vec2)], rest: &Rest) -> Start {
-        let Self { mut start, mut weights } = self;
+/// Systems at most: Tutte's, that of the torsion, one for each exponent, those that even out.
+const MOST_SOLVED: usize = 2 + EXPONENTS.len() + MAX_ROUNDS;
+
+/// The way to a start. The observer is asked before each system but the first, without which there is nothing at all.
+struct Search<'a> {
+    mesh: &'a QuadMesh,
+    boundary: &'a [(qmesh::VertexId, Vec2)],
+    rest: &'a Rest,
+    observer: &'a dyn Observer,
+    /// Systems so far.
+    solved: usize,
+    is_stopped: bool,
+}
+
+impl Search<'_> {
+    /// Whether there may be one more system.
+    fn may_go_on(&mut self) -> bool {
+        self.solved += 1;
+        let fraction = self.solved as f64 / MOST_SOLVED as f64;
+        self.is_stopped = self.is_stopped || self.observer.progress("start", fraction.min(1.0)).is_break();
+        !self.is_stopped
+    }
+
+    /// The best valid map of Tutte's system with the star's weights and, where that is thin, with torsion weights.
+    fn by_weights(&mut self) -> Result<Option<Weighted>, StartError> {
+        let star = star_weights(self.mesh);
+        let mut best = self.valid(tutte(self.mesh, self.boundary, &star)?, StartMethod::Tutte, &star);
+        let is_thin =
+            |best: &Option<Weighted>| best.as_ref().is_none_or(|best| best.start.smallest_corner <= THIN);
+        if !is_thin(&best) || !self.may_go_on() {
+            return Ok(best);
+        }
+        let torsion = Torsion::new(self.mesh)?;
+        for exponent in EXPONENTS {
+            if !is_thin(&best) || !self.may_go_on() {
+                break;
+            }
+            let weights = torsion.weights(self.mesh, &star, exponent);
+            let Ok(uv) = tutte(self.mesh, self.boundary, &weights) else { continue };
+            let found = self.valid(uv, StartMethod::Torsion, &weights);
+            let is_better = |found: &Weighted| {
+                best.as_ref().is_none_or(|best| best.start.smallest_corner < found.start.smallest_corner)
+            };
+            if found.as_ref().is_some_and(is_better) {
+                best = found;
+            }
+        }
+        Ok(best)
+    }
+
+    fn valid(&self, uv: VertexData<Vec2>, method: StartMethod, weights: &EdgeData<f64>) -> Option<Weighted> {
+        let smallest_corner = judge(self.rest, &uv).valid()?;
+        Some(Weighted { start: Start { uv, method, smallest_corner }, weights: weights.clone() })
+    }
+
+    /// `found`, spread as far as there is time for.
+    fn evened(&mut self, found: Weighted) -> Start {
+        let (mesh, boundary, rest) = (self.mesh, self.boundary, self.rest);
+        let Weighted { mut start, mut weights } = found;
         let valid = |weights: &EdgeData<f64>| {
+            if !self.may_go_on() {
+                return None;
+            }
             let uv = tutte(mesh, boundary, weights).ok()?;
             judge(rest, &uv).valid().map(|_| uv.into_vec())
         };
@@ -160,6 +203,21 @@ impl Weighted {
         }
         start
     }
+
+    /// The untangler's map, from the collapsed one.
+    fn untangled(&mut self) -> Result<Start, StartError> {
+        if !self.may_go_on() {
+            return Err(StartError::Cancelled);
+        }
+        let ones = self.mesh.edge_data(|_| 1.0);
+        let mut uv = tutte(self.mesh, self.boundary, &ones)?;
+        untangle(self.rest, self.mesh, &mut uv, self.observer)?;
+        let verdict = judge(self.rest, &uv);
+        match verdict.valid() {
+            Some(smallest_corner) => Ok(Start { uv, method: StartMethod::Untangled, smallest_corner }),
+            None => Err(StartError::Tangled { corner: verdict.worst, count: verdict.bad }),
+        }
+    }
 }
 
 /// Corners below this fraction of the mean one may be positive by luck: quads that share their opposite vertices collapse onto the
@@ -168,23 +226,6 @@ fn least_of_its_own(exempt: &Exempt) -> f64 {
     const HAIR: f64 = 1e-15;
     const HAIR_OF_BUBBLES: f64 = 1e-12;
     if exempt.is_empty() { HAIR } else { HAIR_OF_BUBBLES }
-}
-
-/// The untangler's map, from the collapsed one.
-fn untangled(
-    mesh: &QuadMesh,
-    boundary: &[(qmesh::VertexId, Vec2)],
-    rest: &Rest,
-    observer: &dyn Observer,
-) -> Result<Start, StartError> {
-    let ones = mesh.edge_data(|_| 1.0);
-    let mut uv = tutte(mesh, boundary, &ones)?;
-    untangle(rest, mesh, &mut uv, observer)?;
-    let verdict = judge(rest, &uv);
-    match verdict.valid() {
-        Some(smallest_corner) => Ok(Start { uv, method: StartMethod::Untangled, smallest_corner }),
-        None => Err(StartError::Tangled { corner: verdict.worst, count: verdict.bad }),
-    }
 }
 
 /// How many corners do not turn left, by exact predicates.

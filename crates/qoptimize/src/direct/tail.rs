@@ -85,7 +85,7 @@ impl Tail<'_> {
                 continue;
             }
             last = decrement;
-            let Some(further) = self.further(uv, &direction, energy, decrement)? else {
+            let Some(further) = self.further(uv, &direction, energy, decrement) else {
                 is_worn = true;
                 continue;
             };
@@ -130,17 +130,19 @@ impl Tail<'_> {
         direction: &[Vec2],
         energy_here: f64,
         decrement: f64,
-    ) -> Result<Option<Further>, DescentError> {
+    ) -> Option<Further> {
         let mut step = self.longest(uv, direction);
         for _ in 0..TRIALS {
             let there = moved(uv, direction, step);
-            let (energy, gradient) = self.gradient(&there)?;
-            if energy <= energy_here - ARMIJO * step * decrement {
-                return Ok(Some(Further { uv: there, energy, gradient, step }));
+            // What rounding lets collapse is too far as well.
+            if let Ok((energy, gradient)) = self.gradient(&there)
+                && energy <= energy_here - ARMIJO * step * decrement
+            {
+                return Some(Further { uv: there, energy, gradient, step });
             }
             step *= SHRINK;
         }
-        Ok(None)
+        None
     }
 
     /// How much of `direction` may be gone.
@@ -151,4 +153,34 @@ impl Tail<'_> {
 
 fn moved(uv: &[Vec2], direction: &[Vec2], step: f64) -> Vec<Vec2> {
     uv.par_iter().with_min_len(CHUNK).zip(direction).map(|(p, d)| p + d * step).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::convexity::Exempt;
+    use crate::qmesh::shapes;
+
+    /// Far from the origin a vertex that goes nine tenths of the way to its neighbour is rounded to the very place: that is too far, and a
+    /// shorter trial is good.
+    #[test]
+    fn a_trial_that_rounding_collapses_is_shortened() {
+        // Coordinates are multiples of a half there.
+        const FAR: f64 = 2_251_799_813_685_248.0;
+        let mesh = shapes::grid(4, 4);
+        let rest = Rest::new(&mesh, &Exempt::find(&mesh));
+        let mut hessian = Hessian::new(&rest).unwrap();
+        let at = |v| mesh.position(v).xy();
+        let uv: Vec<Vec2> = mesh.vertices().map(|v| at(v).add_scalar(FAR)).collect();
+        let towards = |v| if at(v) == Vec2::new(1.0, 1.0) { Vec2::new(-1.0, 0.0) } else { Vec2::zeros() };
+        let direction: Vec<Vec2> = mesh.vertices().map(towards).collect();
+        let objective = Objective::default();
+        let mut learnt = Learnt::default();
+        let mut tail =
+            Tail { rest: &rest, hessian: &mut hessian, learnt: &mut learnt, objective: &objective };
+        let longest = tail.longest(&uv, &direction);
+        assert!(tail.gradient(&moved(&uv, &direction, longest)).is_err(), "{longest} is no step too far");
+        let further = tail.further(&uv, &direction, f64::INFINITY, 1.0).expect("a shorter step");
+        assert_eq!(further.step, SHRINK * longest);
+    }
 }

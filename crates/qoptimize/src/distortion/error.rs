@@ -83,6 +83,16 @@ pub(crate) fn check(polygons: PolygonView<'_>, uv: &[Vec2]) -> Result<(), Measur
 
 /// Whether the flat arrays fit together.
 pub(crate) fn check_arrays(polygons: PolygonView<'_>, uv: &[Vec2]) -> Result<(), MeasureError> {
+    check_polygons(polygons)?;
+    let corners = polygons.corner_count();
+    if uv.len() != corners {
+        return Err(MeasureError::UvCount { expected: corners, found: uv.len() });
+    }
+    Ok(())
+}
+
+/// Whether those of the polygons do.
+pub(crate) fn check_polygons(polygons: PolygonView<'_>) -> Result<(), MeasureError> {
     let corners = polygons.corner_count();
     let starts = polygons.face_start;
     if polygons.face_count() == 0 {
@@ -97,9 +107,6 @@ pub(crate) fn check_arrays(polygons: PolygonView<'_>, uv: &[Vec2]) -> Result<(),
     };
     if let Some(entry) = bad {
         return Err(MeasureError::BadFaceStart { entry });
-    }
-    if uv.len() != corners {
-        return Err(MeasureError::UvCount { expected: corners, found: uv.len() });
     }
     let count = polygons.positions.len();
     let is_outside = |&v: &u32| v as usize >= count;

@@ -112,25 +112,34 @@ impl Finest<'_> {
 
     /// The map of least energy of a coarse surface.
     fn minimal(&self, coarse: &Surface<'_>, rest: &Rest, watch: &Within<'_>) -> Option<Vec<Vec2>> {
-        let (watch_start, watch_descent) = watch.split(LAST);
-        let from_coarser = (coarse.mesh.vertex_count() > self.sizes.coarsest)
-            .then(|| self.by_way_of_coarser(coarse, &watch_start))
-            .flatten()
-            .and_then(|mut uv| {
-                repair(rest, &mut uv, &watch_start.end());
-                (judge(rest, &uv).bad == 0).then_some(uv)
-            });
-        let (watch_start, watch_descent) =
-            if from_coarser.is_some() { (watch_start, watch_descent) } else { watch.split(1.0 - START) };
-        let mut uv = match from_coarser {
-            Some(uv) => uv,
-            None => find_start_with_holes(&coarse.mesh, &Exempt::default(), &watch_start).ok()?.uv.into_vec(),
+        let (before, last) = watch.split(LAST);
+        let (mut uv, watch) = match self.by_way_of_still_coarser(coarse, rest, &before) {
+            Some(uv) => (uv, last),
+            None => {
+                let (start, descent) = watch.split(1.0 - START);
+                (find_start_with_holes(&coarse.mesh, &Exempt::default(), &start).ok()?.uv.into_vec(), descent)
+            }
         };
         to_best_scale(rest, self.objective, &mut uv);
         let mut hessian = Hessian::new(rest).ok()?;
         let options = DescentOptions { max_steps: MAX_STEPS, relative_decrease: DECREASE };
-        descend(rest, &mut hessian, &mut uv, self.objective, &options, &watch_descent).ok()?;
+        descend(rest, &mut hessian, &mut uv, self.objective, &options, &watch).ok()?;
         Some(uv)
+    }
+
+    /// A map of a coarse surface that is large enough for a still coarser one, in which every corner turns left.
+    fn by_way_of_still_coarser(
+        &self,
+        coarse: &Surface<'_>,
+        rest: &Rest,
+        watch: &Within<'_>,
+    ) -> Option<Vec<Vec2>> {
+        if coarse.mesh.vertex_count() <= self.sizes.coarsest {
+            return None;
+        }
+        let mut uv = self.by_way_of_coarser(coarse, watch)?;
+        repair(rest, &mut uv, &watch.end());
+        (judge(rest, &uv).bad == 0).then_some(uv)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The energy of the finest mesh, measured in the middle of each coarse face.
 
 use crate::convexity::Exempt;
-use crate::qmesh::{CornerId, FaceId, QuadMesh, Vec2, Vec3};
+use crate::qmesh::{CornerId, FaceId, QuadMesh, Vec2, Vec3, VertexData};
 
 use super::super::constraint::Constraint;
 use super::super::rest::{Frame, Rest, RestCorner, UNIFORM_SHARE, rest_corners, shortest_edge};
@@ -14,10 +14,11 @@ pub(super) fn rest(coarse: &Surface<'_>, quads: &QuadMesh, exempt: &Exempt, unit
     let (mut corners, mut frames, mut ids) = (Vec::new(), Vec::new(), Vec::new());
     let (total_count, total_area) = (coarse.counts.iter().sum::<f64>(), coarse.areas.iter().sum::<f64>());
     let shortest = shortest_edge(quads) / unit;
+    let around = corners_around(mesh);
     for face in mesh.faces() {
         let Some(own) = mesh.face_corners(face).next() else { continue };
         let Some(triangle) = Triangle::new(mesh, own, unit) else { continue };
-        let (count, area) = stands_for(coarse, face);
+        let (count, area) = stands_for(coarse, &around, face);
         let (share, weight) = (count / total_count, area / total_area);
         let samples: Vec<_> = rest_corners(quads, coarse.middle(face), exempt, unit, shortest).collect();
         let factors: f64 = samples.iter().map(|(_, sample)| sample.share).sum();
@@ -36,12 +37,18 @@ pub(super) fn rest(coarse: &Surface<'_>, quads: &QuadMesh, exempt: &Exempt, unit
     Rest { corners, frames, ids, vertex_count: mesh.vertex_count(), unit, constraint: Constraint::default() }
 }
 
+/// How many corners there are at each vertex.
+fn corners_around(mesh: &QuadMesh) -> VertexData<u32> {
+    let mut around = mesh.vertex_data(|_| 0);
+    mesh.corners().for_each(|corner| around[mesh.vertex(corner)] += 1);
+    around
+}
+
 /// How many vertices of the finest mesh `face` stands for, and how much area.
-fn stands_for(coarse: &Surface<'_>, face: FaceId) -> (f64, f64) {
+fn stands_for(coarse: &Surface<'_>, around: &VertexData<u32>, face: FaceId) -> (f64, f64) {
     let mut sums = (0.0, 0.0);
-    for corner in coarse.mesh.face_corners(face) {
-        let vertex = coarse.mesh.vertex(corner);
-        let around = coarse.mesh.vertex_corners(vertex).count() as f64;
+    for vertex in coarse.mesh.face_vertices(face) {
+        let around = f64::from(around[vertex]);
         sums.0 += coarse.counts[vertex.index()] / around;
         sums.1 += coarse.areas[vertex.index()] / around;
     }

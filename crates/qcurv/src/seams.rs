@@ -17,45 +17,74 @@
 mod cost;
 mod distances;
 mod handles;
+mod interrupted;
 mod paths;
 mod tips;
 
 pub use cost::SeamCost;
+pub use interrupted::Interrupted;
 pub use paths::{SeamPaths, cheapest_path};
 pub use tips::tips;
 
-use qmesh::{Chart, EdgeId, FaceId, Id, QuadMesh, Seams, Topology, VertexId};
+use interrupted::look;
+use qmesh::{Chart, EdgeId, FaceId, Id, Observer, QuadMesh, Seams, Topology, VertexId};
 
 /// The edges along which to cut the connected `mesh` so that one planar patch is left: none when it is one already.
 ///
-/// Holes stay holes. A closed surface becomes a disk; a handle is opened by two loops.
+/// Holes stay holes. A closed surface becomes a disk; a handle is opened by two loops. Takes `O((n + genus) log n)` for `n` edges, however many
+/// of them meet in a vertex.
+///
+/// When the observer [is late](Observer::is_late), the seams are any that open the surface, found at once. It hears of `"seams"`.
+///
+/// # Errors
+/// [`Interrupted::Cancelled`] when the observer says so.
 ///
 /// ```
 /// use qcurv::qmesh::{Chart, shapes};
 ///
 /// for mesh in [shapes::sphere(6), shapes::torus(12, 8)] {
-///     let cut = Chart::whole(mesh.clone()).cut(&qcurv::seams::opening(&mesh));
+///     let cut = Chart::whole(mesh.clone()).cut(&qcurv::seams::opening(&mesh, &())?);
 ///     assert!(cut.len() == 1 && cut[0].mesh.topology().is_disk());
 /// }
+/// # Ok::<(), qcurv::seams::Interrupted>(())
 /// ```
-#[must_use]
-pub fn opening(mesh: &QuadMesh) -> Vec<EdgeId> {
+pub fn opening(mesh: &QuadMesh, observer: &dyn Observer) -> Result<Vec<EdgeId>, Interrupted> {
     let topology = mesh.topology();
     let closed = topology.boundary_loops == 0;
     if topology.components != 1 || (!closed && topology.genus == 0) {
-        return Vec::new();
+        return Ok(Vec::new());
     }
+    match good_opening(mesh, &topology, observer) {
+        Ok(seams) if is_opened(mesh, &seams) => Ok(seams),
+        Err(Interrupted::Cancelled) => Err(Interrupted::Cancelled),
+        Ok(_) | Err(Interrupted::OutOfTime) => Ok(any_opening(mesh)),
+    }
+}
+
+/// Loops that open handles, and paths to the tips.
+fn good_opening(
+    mesh: &QuadMesh,
+    topology: &Topology,
+    observer: &dyn Observer,
+) -> Result<Vec<EdgeId>, Interrupted> {
+    look(observer, 0.0)?;
     let cost = SeamCost::new(mesh);
-    let mut seams = if topology.genus > 0 { handles::open(mesh, &cost) } else { Vec::new() };
-    if closed {
-        grow(mesh, &cost, &mut seams);
+    let mut seams = if topology.genus > 0 { handles::open(mesh, &cost, observer)? } else { Vec::new() };
+    if topology.boundary_loops == 0 {
+        grow(mesh, &cost, &mut seams, observer)?;
     }
-    if is_opened(mesh, &seams) { seams } else { any_opening(mesh) }
+    look(observer, 1.0)?;
+    Ok(seams)
 }
 
 /// Adds paths to the tips of a closed surface.
-fn grow(mesh: &QuadMesh, cost: &SeamCost, seams: &mut Vec<EdgeId>) {
-    let mut wanted = tips(mesh);
+fn grow(
+    mesh: &QuadMesh,
+    cost: &SeamCost,
+    seams: &mut Vec<EdgeId>,
+    observer: &dyn Observer,
+) -> Result<(), Interrupted> {
+    let mut wanted = tips(mesh, observer)?;
     if seams.is_empty() {
         // The first two, and any more.
         if wanted.len() < 2 {
@@ -70,6 +99,7 @@ fn grow(mesh: &QuadMesh, cost: &SeamCost, seams: &mut Vec<EdgeId>) {
     };
     mark(&mut reached, seams);
     for _ in 0..wanted.len() {
+        look(observer, 0.9)?;
         let left: Vec<VertexId> = wanted.iter().copied().filter(|&tip| !reached[tip]).collect();
         if left.is_empty() {
             break;
@@ -81,6 +111,7 @@ fn grow(mesh: &QuadMesh, cost: &SeamCost, seams: &mut Vec<EdgeId>) {
     }
     seams.sort_unstable();
     seams.dedup();
+    Ok(())
 }
 
 /// Whether cutting along `seams` leaves one planar patch.

@@ -3,10 +3,11 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use qmesh::{EdgeData, EdgeId, HalfedgeId, QuadMesh, VertexData, VertexId};
+use qmesh::{EdgeData, EdgeId, HalfedgeId, Observer, QuadMesh, VertexData, VertexId};
 
 use super::distances::{distances, farthest, key};
-use super::{SeamCost, patch, paths, prune};
+use super::interrupted::look;
+use super::{Interrupted, SeamCost, patch, paths, prune};
 
 /// Base points that are tried.
 const BASES: usize = 12;
@@ -14,21 +15,32 @@ const BASES: usize = 12;
 const CORRIDOR: usize = 4;
 
 /// A short system of edges along which cutting makes a planar patch of a connected mesh with handles.
-pub(super) fn open(mesh: &QuadMesh, cost: &SeamCost) -> Vec<EdgeId> {
-    let systems = bases(mesh).into_iter().map(|base| system(mesh, cost, base));
-    let best = systems.reduce(|best, next| if cost.of(&next) < cost.of(&best) { next } else { best });
-    let loops = best.unwrap_or_default();
-    let straight = straightened(mesh, cost, &loops);
+pub(super) fn open(
+    mesh: &QuadMesh,
+    cost: &SeamCost,
+    observer: &dyn Observer,
+) -> Result<Vec<EdgeId>, Interrupted> {
+    let mut loops: Vec<EdgeId> = Vec::new();
+    let bases = bases(mesh, observer)?;
+    for (done, &base) in bases.iter().enumerate() {
+        look(observer, 0.1 + 0.3 * done as f64 / bases.len() as f64)?;
+        let next = system(mesh, cost, base);
+        if done == 0 || cost.of(&next) < cost.of(&loops) {
+            loops = next;
+        }
+    }
+    let straight = straightened(mesh, cost, &loops, observer)?;
     // The same patch, not one that is left with another number of loops because two arcs came to lie on each other.
     let is_alike = patch(mesh, &straight).is_some_and(|found| Some(found) == patch(mesh, &loops));
-    if cost.of(&straight) < 1.5 * cost.of(&loops) && is_alike { straight } else { loops }
+    Ok(if cost.of(&straight) < 1.5 * cost.of(&loops) && is_alike { straight } else { loops })
 }
 
 /// Points spread over the surface.
-fn bases(mesh: &QuadMesh) -> Vec<VertexId> {
+fn bases(mesh: &QuadMesh, observer: &dyn Observer) -> Result<Vec<VertexId>, Interrupted> {
     let mut bases = vec![farthest(&distances(mesh, &[VertexId(0)]))];
     let mut nearest = distances(mesh, &bases);
     while bases.len() < BASES {
+        look(observer, 0.1 * bases.len() as f64 / BASES as f64)?;
         let next = farthest(&nearest);
         let from_next = distances(mesh, &[next]);
         for vertex in mesh.vertices() {
@@ -36,7 +48,7 @@ fn bases(mesh: &QuadMesh) -> Vec<VertexId> {
         }
         bases.push(next);
     }
-    bases
+    Ok(bases)
 }
 
 /// The union of the greedy loops through `base`, without what hangs loose.
@@ -138,14 +150,20 @@ fn sides(mesh: &QuadMesh) -> Vec<u32> {
 }
 
 /// The same arcs between the same branchings, each led anew along edge loops as far as they stay close.
-fn straightened(mesh: &QuadMesh, cost: &SeamCost, edges: &[EdgeId]) -> Vec<EdgeId> {
+fn straightened(
+    mesh: &QuadMesh,
+    cost: &SeamCost,
+    edges: &[EdgeId],
+    observer: &dyn Observer,
+) -> Result<Vec<EdgeId>, Interrupted> {
     let mut result = Vec::new();
     let arcs = arcs(mesh, edges);
     let mut others = mesh.vertex_data(|_| 0u32);
     for vertex in arcs.iter().flatten() {
         others[*vertex] += 1;
     }
-    for arc in &arcs {
+    for (done, arc) in arcs.iter().enumerate() {
+        look(observer, 0.4 + 0.1 * done as f64 / arcs.len() as f64)?;
         let near = corridor(mesh, arc, &others);
         let (start, end) = (arc[0], arc[arc.len() - 1]);
         let mut blocked = cost.clone();
@@ -156,7 +174,7 @@ fn straightened(mesh: &QuadMesh, cost: &SeamCost, edges: &[EdgeId]) -> Vec<EdgeI
     }
     result.sort_unstable();
     result.dedup();
-    result
+    Ok(result)
 }
 
 /// The vertices near an arc, not counting those of other arcs.

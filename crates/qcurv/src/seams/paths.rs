@@ -18,10 +18,13 @@ pub struct SeamPaths {
 }
 
 const NONE: HalfedgeId = HalfedgeId(u32::MAX);
+/// Where more edges meet, the first path that arrives is the only one that goes on: all pairs of edges would be too many.
+const HUB: u32 = 64;
 
 impl SeamPaths {
     /// Searches from `sources`, until a vertex is reached for which `is_goal` holds; to the end when there is none. Paths may not
-    /// pass through sources again.
+    /// pass through sources again. Takes `O(n log n)` for `n` edges; where more than 64 of them meet, paths go on from the first
+    /// that arrives.
     #[must_use]
     pub fn search(
         mesh: &QuadMesh,
@@ -54,6 +57,8 @@ impl SeamPaths {
                 if is_goal(vertex) {
                     break;
                 }
+            } else if cost.valence(vertex) > HUB {
+                continue;
             }
             for next in mesh.outgoing(vertex).filter(|&next| next != mesh.twin(halfedge)) {
                 let there =

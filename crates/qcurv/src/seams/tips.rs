@@ -1,8 +1,10 @@
 //! The tips of limbs.
 
-use qmesh::{QuadMesh, VertexData, VertexId};
+use qmesh::{Observer, QuadMesh, VertexData, VertexId};
 
+use super::Interrupted;
 use super::distances::{distances, farthest};
+use super::interrupted::look;
 
 /// Places from which distances are averaged.
 const SAMPLES: usize = 24;
@@ -13,24 +15,27 @@ const MOST: usize = 16;
 
 /// The ends of the limbs of a connected mesh: the maxima of the mean distance to points spread over the surface that stand
 /// out against the pass to a higher one, those that stand out most first. None on a round surface.
-#[must_use]
-pub fn tips(mesh: &QuadMesh) -> Vec<VertexId> {
-    let mean = mean_distances(mesh);
+///
+/// # Errors
+/// When the observer says so.
+pub fn tips(mesh: &QuadMesh, observer: &dyn Observer) -> Result<Vec<VertexId>, Interrupted> {
+    let mean = mean_distances(mesh, observer)?;
     let least = mean.iter().copied().filter(|d| d.is_finite()).fold(f64::INFINITY, f64::min);
     let mut found: Vec<(f64, VertexId)> = prominences(mesh, &mean);
     found.retain(|&(prominence, _)| prominence > PROMINENCE * least);
     found.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     found.truncate(MOST);
-    found.into_iter().map(|(_, vertex)| vertex).collect()
+    Ok(found.into_iter().map(|(_, vertex)| vertex).collect())
 }
 
 /// The mean distance to samples each of which is farthest from those before.
-fn mean_distances(mesh: &QuadMesh) -> VertexData<f64> {
+fn mean_distances(mesh: &QuadMesh, observer: &dyn Observer) -> Result<VertexData<f64>, Interrupted> {
     let mut sum = mesh.vertex_data(|_| 0.0);
     let start = farthest(&distances(mesh, &[VertexId(0)]));
     let mut nearest = distances(mesh, &[start]);
     let mut from_last = nearest.clone();
     for sample in 0..SAMPLES {
+        look(observer, 0.5 + 0.4 * sample as f64 / SAMPLES as f64)?;
         for vertex in mesh.vertices() {
             sum[vertex] += from_last[vertex] / SAMPLES as f64;
             nearest[vertex] = nearest[vertex].min(from_last[vertex]);
@@ -39,7 +44,7 @@ fn mean_distances(mesh: &QuadMesh) -> VertexData<f64> {
             from_last = distances(mesh, &[farthest(&nearest)]);
         }
     }
-    sum
+    Ok(sum)
 }
 
 /// Each local maximum with the depth of the pass to a higher one: vertices join from the highest down, and where two

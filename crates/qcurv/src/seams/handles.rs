@@ -53,7 +53,7 @@ fn bases(mesh: &QuadMesh, observer: &dyn Observer) -> Result<Vec<VertexId>, Inte
 
 /// The union of the greedy loops through `base`, without what hangs loose.
 fn system(mesh: &QuadMesh, cost: &SeamCost, base: VertexId) -> Vec<EdgeId> {
-    let (distance, parent) = tree(mesh, cost, base);
+    let (distance, mut parent) = tree(mesh, cost, base);
     let mut in_tree = mesh.edge_data(|_| false);
     for halfedge in parent.iter().flatten() {
         in_tree[mesh.edge(*halfedge)] = true;
@@ -62,7 +62,8 @@ fn system(mesh: &QuadMesh, cost: &SeamCost, base: VertexId) -> Vec<EdgeId> {
     for edge in left_over(mesh, cost, &distance, &in_tree) {
         edges.push(edge);
         for mut vertex in mesh.edge_vertices(edge) {
-            while let Some(halfedge) = parent[vertex] {
+            // Taken: from here on another loop went the same way.
+            while let Some(halfedge) = parent[vertex].take() {
                 edges.push(mesh.edge(halfedge));
                 vertex = mesh.origin(halfedge);
             }
@@ -162,37 +163,46 @@ fn straightened(
     for vertex in arcs.iter().flatten() {
         others[*vertex] += 1;
     }
+    // Made once, for there may be many arcs.
+    let mut search = paths::SeamPaths::new(mesh);
+    let (mut is_near, mut near) = (mesh.vertex_data(|_| false), Vec::new());
     for (done, arc) in arcs.iter().enumerate() {
         look(observer, 0.4 + 0.1 * done as f64 / arcs.len() as f64)?;
-        let near = corridor(mesh, arc, &others);
-        let (start, end) = (arc[0], arc[arc.len() - 1]);
-        let mut blocked = cost.clone();
-        for edge in mesh.edges().filter(|&edge| mesh.edge_vertices(edge).iter().any(|&v| !near[v])) {
-            blocked.edges[edge] = f64::INFINITY;
-        }
-        result.extend(paths::cheapest_path(mesh, &blocked, &[start], |vertex| vertex == end));
+        corridor(mesh, arc, &others, &mut is_near, &mut near);
+        let is_end = |vertex| vertex == arc[arc.len() - 1];
+        search.run(mesh, cost, &arc[..1], |vertex| is_near[vertex], is_end);
+        result.extend(search.path_to(mesh, is_end));
+        search.forget(mesh, &near);
+        near.drain(..).for_each(|vertex| is_near[vertex] = false);
     }
     result.sort_unstable();
     result.dedup();
     Ok(result)
 }
 
-/// The vertices near an arc, not counting those of other arcs.
-fn corridor(mesh: &QuadMesh, arc: &[VertexId], taken: &VertexData<u32>) -> VertexData<bool> {
-    let mut near = mesh.vertex_data(|_| false);
-    let mut front: Vec<VertexId> = arc.to_vec();
-    arc.iter().for_each(|&vertex| near[vertex] = true);
+/// Marks and lists the vertices near an arc, not counting those of other arcs.
+fn corridor(
+    mesh: &QuadMesh,
+    arc: &[VertexId],
+    taken: &VertexData<u32>,
+    is_near: &mut VertexData<bool>,
+    near: &mut Vec<VertexId>,
+) {
+    arc.iter().for_each(|&vertex| is_near[vertex] = true);
+    near.extend(arc);
+    let mut front = 0;
     for _ in 0..CORRIDOR.min(arc.len() / 3) {
-        let mut next = Vec::new();
-        for vertex in front.iter().flat_map(|&vertex| mesh.neighbors(vertex)) {
-            if taken[vertex] == 0 && !mesh.is_boundary(vertex) && !std::mem::replace(&mut near[vertex], true)
-            {
-                next.push(vertex);
+        let end = near.len();
+        for place in front..end {
+            for vertex in mesh.neighbors(near[place]) {
+                let is_free = taken[vertex] == 0 && !mesh.is_boundary(vertex);
+                if is_free && !std::mem::replace(&mut is_near[vertex], true) {
+                    near.push(vertex);
+                }
             }
         }
-        front = next;
+        front = end;
     }
-    near
 }
 
 /// The edges as walks between vertices where they branch or end; closed walks are split in three.
@@ -204,11 +214,13 @@ fn arcs(mesh: &QuadMesh, edges: &[EdgeId]) -> Vec<Vec<VertexId>> {
         let from = at.partition_point(|&(v, _)| v < vertex);
         at[from..].iter().take_while(move |&&(v, _)| v == vertex).map(|&(_, edge)| edge)
     };
-    let is_node = |vertex: VertexId| around(vertex).count() != 2;
+    let is_node = |vertex: VertexId| around(vertex).take(3).count() != 2;
     let mut seen = std::collections::HashSet::new();
     let mut walks = Vec::new();
-    let nodes = at.iter().map(|&(vertex, _)| vertex).filter(|&vertex| is_node(vertex));
-    for start in nodes.chain(at.iter().map(|&(vertex, _)| vertex)) {
+    let mut vertices: Vec<VertexId> = at.iter().map(|&(vertex, _)| vertex).collect();
+    vertices.dedup();
+    let nodes = vertices.iter().copied().filter(|&vertex| is_node(vertex));
+    for start in nodes.chain(vertices.iter().copied()) {
         for first in around(start).collect::<Vec<_>>() {
             let (mut walk, mut edge, mut vertex) = (vec![start], first, start);
             while seen.insert(edge) {

@@ -126,7 +126,8 @@ fn patch(mesh: &QuadMesh, seams: &[EdgeId]) -> Option<Topology> {
     Some(chart.mesh.topology()).filter(|topology| topology.genus == 0 && topology.boundary_loops > 0)
 }
 
-/// All edges but those of a spanning tree of the faces, less what hangs loose: a disk, whatever the surface was.
+/// All edges but those of a spanning tree of the faces, less what hangs loose: a planar patch, whatever the surface was; of a closed sphere
+/// two edges.
 fn any_opening(mesh: &QuadMesh) -> Vec<EdgeId> {
     let mut is_cut = mesh.edge_data(|edge| !mesh.is_boundary_edge(edge));
     let mut seen = mesh.face_data(|_| false);
@@ -144,10 +145,17 @@ fn any_opening(mesh: &QuadMesh) -> Vec<EdgeId> {
             }
         }
     }
-    let all: Vec<EdgeId> = mesh.edges().filter(|&edge| is_cut[edge]).collect();
-    let pruned = prune(mesh, all.clone());
-    // What is left of a closed sphere is nothing: keep two edges of the tree.
-    if is_opened(mesh, &pruned) { pruned } else { all }
+    let pruned = prune(mesh, mesh.edges().filter(|&edge| is_cut[edge]).collect());
+    // Of a closed sphere nothing is left: any two edges in a row open it.
+    if pruned.is_empty() { slit(mesh) } else { pruned }
+}
+
+/// The first two edges of a face: opened together they are a slit, one alone opens nothing.
+fn slit(mesh: &QuadMesh) -> Vec<EdgeId> {
+    let mut edges: Vec<EdgeId> =
+        mesh.face_corners(FaceId(0)).take(2).map(|corner| mesh.edge(corner.halfedge())).collect();
+    edges.sort_unstable();
+    edges
 }
 
 /// Takes away edges that end at a vertex without another one, again and again.

@@ -90,6 +90,16 @@ fn seams_open_every_closed_surface() {
     }
 }
 
+/// Where no two vertices lie apart there are no paths, but a slit of two edges.
+#[test]
+fn a_surface_in_one_point_gets_a_slit() {
+    let mesh = shapes::sphere(4);
+    let mesh = mesh.clone().with_positions(mesh.vertex_data(|_| Vec3::zeros()));
+    let seams = opening(&mesh);
+    assert_eq!(seams.len(), 2);
+    assert!(cut(&mesh, &seams).topology().is_disk());
+}
+
 /// Holes stay holes; what is a patch already is left alone.
 #[test]
 fn holes_are_no_reason_to_cut() {

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::ops::Range;
 
 use super::output::{Piece, write_pieces};
-use super::texture::{TextureTable, UvFormat, invalid};
+use super::texture::{TextureTable, invalid};
 use crate::polygons::PolygonView;
 use crate::{QuadMesh, Vec2};
 
@@ -27,9 +27,8 @@ pub fn write_obj(
     corner_uv: Option<&[Vec2]>,
 ) -> io::Result<()> {
     check(polygons)?;
-    let format = UvFormat::default();
     let table = corner_uv
-        .map(|uv| TextureTable::new(polygons.positions.len(), polygons.corner_vertex, uv, format))
+        .map(|uv| TextureTable::new(polygons.positions.len(), polygons.corner_vertex, uv))
         .transpose()?;
     let faces = polygons.face_count();
     let vertices = polygons.positions.len();
@@ -47,7 +46,7 @@ pub fn write_obj(
         }
         Job::Values(range) => {
             for uv in table.iter().flat_map(|table| table.values(range.clone())) {
-                piece.texture(uv, format);
+                piece.texture(uv);
                 piece.bytes(b"\n");
             }
         }

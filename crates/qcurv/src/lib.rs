@@ -44,7 +44,7 @@ mod triangle;
 mod vertex_area;
 
 pub use angle::{corner_angle, corner_angles, face_defects};
-pub use area::{corner_area, corner_areas, face_area, face_areas, surface_area};
+pub use area::{corner_area, face_area, face_areas, surface_area};
 pub use gaussian::{gaussian_curvature, integrated_curvature};
 pub use qmesh;
 pub use triangle::{triangle_area, voronoi_cell_area};

@@ -5,8 +5,8 @@ use std::ops::Range;
 
 use super::output::{Piece, write_pieces};
 use super::texture::{TextureTable, invalid};
+use crate::Vec2;
 use crate::polygons::PolygonView;
-use crate::{QuadMesh, Vec2};
 
 /// Writes polygons as OBJ text: `v` lines, `vt` lines if there are UVs (one per corner), `f` lines. Lines end with LF.
 ///
@@ -85,14 +85,6 @@ fn write_faces(
         }
         piece.bytes(b"\n");
     }
-}
-
-/// A mesh as OBJ text, as [`write_obj`] writes its polygons; vertices are numbered as in the mesh.
-///
-/// # Errors
-/// As [`write_obj`].
-pub fn write_mesh(out: &mut impl Write, mesh: &QuadMesh, corner_uv: Option<&[Vec2]>) -> io::Result<()> {
-    write_obj(out, mesh.view(), corner_uv)
 }
 
 fn check(polygons: PolygonView<'_>) -> io::Result<()> {

@@ -311,7 +311,7 @@ fn infinite_answers_are_refused() {
 }
 
 fn single(entry: f64) -> ScalarMultigrid {
-    let mut matrix = BlockMatrix::zeros(vec![0, 1], vec![0]).unwrap();
+    let mut matrix = BlockMatrix::zeros(vec![0, 1], vec![0]).expect("one entry");
     matrix.fill_rows(|_, _, values| values[0] = [[entry]]);
-    ScalarMultigrid::new(matrix, 100).unwrap()
+    ScalarMultigrid::new(matrix, 100).expect("a positive entry")
 }

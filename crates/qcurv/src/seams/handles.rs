@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use qmesh::{EdgeData, EdgeId, HalfedgeId, Observer, QuadMesh, VertexData, VertexId};
+use qmesh::{Components, EdgeData, EdgeId, HalfedgeId, Observer, QuadMesh, VertexData, VertexId};
 
 use super::distances::{distances, farthest, key};
 use super::interrupted::look;
@@ -118,24 +118,10 @@ fn left_over(
     };
     let mut others: Vec<EdgeId> = mesh.edges().filter(|&edge| !in_tree[edge]).collect();
     others.sort_by(|&a, &b| around(b).total_cmp(&around(a)).then(a.cmp(&b)));
-    let mut parent: Vec<u32> = (0..mesh.halfedge_count() as u32).collect();
-    let mut root = move |mut node: u32, join: Option<u32>| {
-        while parent[node as usize] != node {
-            parent[node as usize] = parent[parent[node as usize] as usize];
-            node = parent[node as usize];
-        }
-        if let Some(other) = join {
-            parent[node as usize] = other;
-        }
-        node
-    };
+    let mut joined = Components::new(mesh.halfedge_count());
     let is_left = |edge: &EdgeId| {
         let halfedge = mesh.halfedge(*edge);
-        let [a, b] = [halfedge, mesh.twin(halfedge)].map(|h| root(side[h.index()], None));
-        if a != b {
-            root(a, Some(b));
-        }
-        a == b
+        !joined.join(side[halfedge.index()], side[mesh.twin(halfedge).index()])
     };
     others.into_iter().filter(is_left).collect()
 }

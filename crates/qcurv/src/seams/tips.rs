@@ -1,6 +1,6 @@
 //! The tips of limbs.
 
-use qmesh::{Observer, QuadMesh, VertexData, VertexId};
+use qmesh::{Components, Observer, QuadMesh, VertexData, VertexId};
 
 use super::Interrupted;
 use super::distances::{distances, farthest};
@@ -53,36 +53,28 @@ fn prominences(mesh: &QuadMesh, height: &VertexData<f64>) -> Vec<(f64, VertexId)
     let mut order: Vec<VertexId> = mesh.vertices().filter(|&vertex| height[vertex].is_finite()).collect();
     order.sort_by(|&a, &b| height[b].total_cmp(&height[a]).then(a.cmp(&b)));
     const NONE: VertexId = VertexId(u32::MAX);
-    // Each vertex leads on to one of its region; the last is the region's maximum.
-    let mut above = VertexData::filled(mesh.vertex_count(), NONE);
+    let mut regions = Components::new(mesh.vertex_count());
+    // The maximum of each region, at its root; something at all vertices that have joined one.
+    let mut top = VertexData::filled(mesh.vertex_count(), NONE);
     let mut found = Vec::new();
     let mut peaks = Vec::new();
     for &vertex in &order {
         peaks.clear();
-        for neighbor in mesh.neighbors(vertex) {
-            if above[neighbor] != NONE {
-                peaks.push(peak(&mut above, neighbor));
-            }
+        for neighbor in mesh.neighbors(vertex).filter(|&neighbor| top[neighbor] != NONE) {
+            peaks.push(top[VertexId(regions.root(neighbor.0))]);
         }
         peaks.sort_by(|&a, &b| height[b].total_cmp(&height[a]).then(a.cmp(&b)));
         peaks.dedup();
-        above[vertex] = peaks.first().copied().unwrap_or(vertex);
-        for &lower in peaks.iter().skip(1) {
-            found.push((height[lower] - height[vertex], lower));
-            above[lower] = peaks[0];
+        found.extend(peaks.iter().skip(1).map(|&lower| (height[lower] - height[vertex], lower)));
+        for neighbor in mesh.neighbors(vertex).filter(|&neighbor| top[neighbor] != NONE) {
+            regions.join(vertex.0, neighbor.0);
         }
+        let highest = peaks.first().copied().unwrap_or(vertex);
+        top[vertex] = highest;
+        top[VertexId(regions.root(vertex.0))] = highest;
     }
     if let (Some(&highest), Some(&lowest)) = (order.first(), order.last()) {
         found.push((height[highest] - height[lowest], highest));
     }
     found
-}
-
-fn peak(above: &mut VertexData<VertexId>, mut vertex: VertexId) -> VertexId {
-    while above[vertex] != vertex {
-        let next = above[above[vertex]];
-        above[vertex] = next;
-        vertex = next;
-    }
-    vertex
 }

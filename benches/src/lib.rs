@@ -23,12 +23,7 @@ pub fn face_like(side: usize) -> QuadMesh {
 /// The polygons that `mesh` was built from.
 #[must_use]
 pub fn polygons(mesh: &QuadMesh) -> Polygons {
-    let view = mesh.view();
-    Polygons {
-        positions: view.positions.to_vec(),
-        face_start: view.face_start.to_vec(),
-        corner_vertex: view.corner_vertex.to_vec(),
-    }
+    mesh.view().to_polygons()
 }
 
 /// Unit springs between the neighbours of a `side × side` grid, and between the outermost nodes and walls around them.

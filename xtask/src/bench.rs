@@ -10,6 +10,7 @@ use clap::Parser;
 
 use crate::arguments;
 use crate::compare::machine;
+use crate::instructions::rustc;
 use estimates::{Estimate, collect};
 use growth::{LARGE, Row, rows};
 
@@ -114,17 +115,6 @@ fn micros(time: &Estimate) -> String {
         micros if micros >= 1.0 => format!("{micros:.2}"),
         micros => format!("{micros:.3}"),
     }
-}
-
-fn rustc() -> String {
-    let output = Command::new("rustc").arg("--version").output();
-    output.map_or_else(
-        |_| "rustc".to_owned(),
-        |output| {
-            // Without the hash and the date.
-            String::from_utf8_lossy(&output.stdout).split(" (").next().unwrap_or_default().trim().to_owned()
-        },
-    )
 }
 
 #[cfg(test)]

@@ -185,8 +185,8 @@ fn has_valgrind() -> bool {
     version.is_ok_and(|status| status.success())
 }
 
-/// Version without hash and date.
-fn rustc() -> String {
+/// Version of the compiler without hash and date; nothing where there is none.
+pub(crate) fn rustc() -> String {
     let output = Command::new("rustc").arg("--version").output();
     let text = output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default();
     text.split(" (").next().unwrap_or_default().trim().to_owned()

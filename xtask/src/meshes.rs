@@ -10,7 +10,7 @@ use std::process::Command;
 
 use qparam_cli::qcurv::surface_area;
 use qparam_cli::qmesh::charts::cut;
-use qparam_cli::qmesh::obj::ObjDocument;
+use qparam_cli::qmesh::obj::{ObjDocument, ObjError};
 use qparam_cli::qmesh::{CornerId, QuadMesh, Seams, Vec2};
 use qparam_cli::qoptimize::{atlas, certify, measure};
 use qparam_cli::{Environment, Exit, Interrupt, Streams};
@@ -137,7 +137,7 @@ pub(crate) fn digits(x: f64) -> String {
 
 fn seam_rows(mesh: &Path, work: &Path, python: Option<&Path>, root: &Path) -> Result<String, String> {
     let mut rows = String::new();
-    let document = ObjDocument::from_path(mesh).map_err(|error| error.to_string())?;
+    let document = document(mesh).map_err(|error| error.to_string())?;
     let mut put = |by: &str, file: &Path| -> Result<(), String> {
         let row = measured(file)?;
         // Writing to a string does not fail.
@@ -176,10 +176,15 @@ fn seam_rows(mesh: &Path, work: &Path, python: Option<&Path>, root: &Path) -> Re
     Ok(rows)
 }
 
+/// What a file holds.
+pub(crate) fn document(path: &Path) -> Result<ObjDocument, ObjError> {
+    ObjDocument::read(fs::File::open(path)?)
+}
+
 /// Islands, seam edges and length, stretch, SD, and faults of the UVs of a file.
 fn measured(file: &Path) -> Result<String, String> {
     let fail = |error: String| format!("{}: {error}", file.display());
-    let document = ObjDocument::from_path(file).map_err(|error| fail(error.to_string()))?;
+    let document = document(file).map_err(|error| fail(error.to_string()))?;
     let uv = document.corner_uv().ok_or_else(|| fail("not every corner has a UV".to_owned()))?;
     let view = document.view();
     let seams = Seams::between(view, |a, b| (0..2).any(|end| uv[a[end]] != uv[b[end]]));

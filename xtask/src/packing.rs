@@ -11,7 +11,6 @@ use std::process::Command;
 use std::time::Instant;
 
 use qparam_cli::qmesh::charts::cut;
-use qparam_cli::qmesh::obj::ObjDocument;
 use qparam_cli::qmesh::{Seams, Vec2};
 use qparam_cli::qoptimize::pack::{PackOptions, Shape, pack};
 use serde_json::Value;
@@ -110,7 +109,7 @@ fn output(command: &mut Command) -> Result<String, String> {
 /// The islands of a file with UVs, packed by ours: how many, and what shares of the square and of their rectangle they cover.
 fn packed(file: &Path, options: &PackOptions) -> Result<(u64, [f64; 3]), String> {
     let fail = |error: String| format!("{}: {error}", file.display());
-    let document = ObjDocument::from_path(file).map_err(|error| fail(error.to_string()))?;
+    let document = crate::meshes::document(file).map_err(|error| fail(error.to_string()))?;
     let uv = document.corner_uv().ok_or_else(|| fail("not every corner has a UV".to_owned()))?;
     let view = document.view();
     let seams = Seams::between(view, |a, b| (0..2).any(|end| uv[a[end]] != uv[b[end]]));

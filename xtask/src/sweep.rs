@@ -7,7 +7,7 @@
 mod curves;
 mod files;
 mod mesh_report;
-mod printed;
+pub(crate) mod printed;
 mod reading;
 mod search;
 mod short;

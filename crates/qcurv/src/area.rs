@@ -1,6 +1,6 @@
 //! Areas of corner triangles, faces and the surface.
 
-use qmesh::{CornerData, CornerId, FaceData, FaceId, QuadMesh, Vec3};
+use qmesh::{CornerId, FaceData, FaceId, QuadMesh, Vec3};
 
 use crate::par_data;
 use crate::triangle::triangle_area;
@@ -11,12 +11,6 @@ use crate::triangle::triangle_area;
 pub fn corner_area(mesh: &QuadMesh, corner: CornerId) -> f64 {
     let [next, previous] = mesh.corner_vectors(corner);
     triangle_area(next, previous)
-}
-
-/// All corner areas.
-#[must_use]
-pub fn corner_areas(mesh: &QuadMesh) -> CornerData<f64> {
-    par_data(mesh.corner_count(), |corner| corner_area(mesh, corner))
 }
 
 /// The area of `face`. A quad counts the mean of its two diagonal splits (more than its area when it is concave);

@@ -17,45 +17,74 @@
 mod cost;
 mod distances;
 mod handles;
+mod interrupted;
 mod paths;
 mod tips;
 
 pub use cost::SeamCost;
+pub use interrupted::Interrupted;
 pub use paths::{SeamPaths, cheapest_path};
 pub use tips::tips;
 
-use qmesh::{Chart, EdgeId, FaceId, Id, QuadMesh, Seams, Topology, VertexId};
+use interrupted::look;
+use qmesh::{Chart, EdgeId, FaceId, Id, Observer, QuadMesh, Seams, Topology, VertexId};
 
 /// The edges along which to cut the connected `mesh` so that one planar patch is left: none when it is one already.
 ///
-/// Holes stay holes. A closed surface becomes a disk; a handle is opened by two loops.
+/// Holes stay holes. A closed surface becomes a disk; a handle is opened by two loops. Takes `O((n + genus) log n)` for `n` edges, however many
+/// of them meet in a vertex.
+///
+/// When the observer [is late](Observer::is_late), the seams are any that open the surface, found at once. It hears of `"seams"`.
+///
+/// # Errors
+/// [`Interrupted::Cancelled`] when the observer says so.
 ///
 /// ```
 /// use qcurv::qmesh::{Chart, shapes};
 ///
 /// for mesh in [shapes::sphere(6), shapes::torus(12, 8)] {
-///     let cut = Chart::whole(mesh.clone()).cut(&qcurv::seams::opening(&mesh));
+///     let cut = Chart::whole(mesh.clone()).cut(&qcurv::seams::opening(&mesh, &())?);
 ///     assert!(cut.len() == 1 && cut[0].mesh.topology().is_disk());
 /// }
+/// # Ok::<(), qcurv::seams::Interrupted>(())
 /// ```
-#[must_use]
-pub fn opening(mesh: &QuadMesh) -> Vec<EdgeId> {
+pub fn opening(mesh: &QuadMesh, observer: &dyn Observer) -> Result<Vec<EdgeId>, Interrupted> {
     let topology = mesh.topology();
     let closed = topology.boundary_loops == 0;
     if topology.components != 1 || (!closed && topology.genus == 0) {
-        return Vec::new();
+        return Ok(Vec::new());
     }
+    match good_opening(mesh, &topology, observer) {
+        Ok(seams) if is_opened(mesh, &seams) => Ok(seams),
+        Err(Interrupted::Cancelled) => Err(Interrupted::Cancelled),
+        Ok(_) | Err(Interrupted::OutOfTime) => Ok(any_opening(mesh)),
+    }
+}
+
+/// Loops that open handles, and paths to the tips.
+fn good_opening(
+    mesh: &QuadMesh,
+    topology: &Topology,
+    observer: &dyn Observer,
+) -> Result<Vec<EdgeId>, Interrupted> {
+    look(observer, 0.0)?;
     let cost = SeamCost::new(mesh);
-    let mut seams = if topology.genus > 0 { handles::open(mesh, &cost) } else { Vec::new() };
-    if closed {
-        grow(mesh, &cost, &mut seams);
+    let mut seams = if topology.genus > 0 { handles::open(mesh, &cost, observer)? } else { Vec::new() };
+    if topology.boundary_loops == 0 {
+        grow(mesh, &cost, &mut seams, observer)?;
     }
-    if is_opened(mesh, &seams) { seams } else { any_opening(mesh) }
+    look(observer, 1.0)?;
+    Ok(seams)
 }
 
 /// Adds paths to the tips of a closed surface.
-fn grow(mesh: &QuadMesh, cost: &SeamCost, seams: &mut Vec<EdgeId>) {
-    let mut wanted = tips(mesh);
+fn grow(
+    mesh: &QuadMesh,
+    cost: &SeamCost,
+    seams: &mut Vec<EdgeId>,
+    observer: &dyn Observer,
+) -> Result<(), Interrupted> {
+    let mut wanted = tips(mesh, observer)?;
     if seams.is_empty() {
         // The first two, and any more.
         if wanted.len() < 2 {
@@ -70,6 +99,7 @@ fn grow(mesh: &QuadMesh, cost: &SeamCost, seams: &mut Vec<EdgeId>) {
     };
     mark(&mut reached, seams);
     for _ in 0..wanted.len() {
+        look(observer, 0.9)?;
         let left: Vec<VertexId> = wanted.iter().copied().filter(|&tip| !reached[tip]).collect();
         if left.is_empty() {
             break;
@@ -81,6 +111,7 @@ fn grow(mesh: &QuadMesh, cost: &SeamCost, seams: &mut Vec<EdgeId>) {
     }
     seams.sort_unstable();
     seams.dedup();
+    Ok(())
 }
 
 /// Whether cutting along `seams` leaves one planar patch.
@@ -95,7 +126,8 @@ fn patch(mesh: &QuadMesh, seams: &[EdgeId]) -> Option<Topology> {
     Some(chart.mesh.topology()).filter(|topology| topology.genus == 0 && topology.boundary_loops > 0)
 }
 
-/// All edges but those of a spanning tree of the faces, less what hangs loose: a disk, whatever the surface was.
+/// All edges but those of a spanning tree of the faces, less what hangs loose: a planar patch, whatever the surface was; of a closed sphere
+/// two edges.
 fn any_opening(mesh: &QuadMesh) -> Vec<EdgeId> {
     let mut is_cut = mesh.edge_data(|edge| !mesh.is_boundary_edge(edge));
     let mut seen = mesh.face_data(|_| false);
@@ -113,10 +145,17 @@ fn any_opening(mesh: &QuadMesh) -> Vec<EdgeId> {
             }
         }
     }
-    let all: Vec<EdgeId> = mesh.edges().filter(|&edge| is_cut[edge]).collect();
-    let pruned = prune(mesh, all.clone());
-    // What is left of a closed sphere is nothing: keep two edges of the tree.
-    if is_opened(mesh, &pruned) { pruned } else { all }
+    let pruned = prune(mesh, mesh.edges().filter(|&edge| is_cut[edge]).collect());
+    // Of a closed sphere nothing is left: any two edges in a row open it.
+    if pruned.is_empty() { slit(mesh) } else { pruned }
+}
+
+/// The first two edges of a face: opened together they are a slit, one alone opens nothing.
+fn slit(mesh: &QuadMesh) -> Vec<EdgeId> {
+    let mut edges: Vec<EdgeId> =
+        mesh.face_corners(FaceId(0)).take(2).map(|corner| mesh.edge(corner.halfedge())).collect();
+    edges.sort_unstable();
+    edges
 }
 
 /// Takes away edges that end at a vertex without another one, again and again.

@@ -29,7 +29,7 @@ impl QuadMesh {
         let (positions, source_vertex) = drop_unused_vertices(positions, &mut corner_vertex);
         let source = |vertex: u32| source_vertex.as_ref().map_or(vertex, |map| map[vertex as usize]);
 
-        let corner_face = corner_faces(&face_start, corner_vertex.len());
+        let corner_face = corner_faces(&face_start, corner_vertex.len(), FaceId);
         let fans = Outgoing::new(positions.len(), &corner_vertex);
         let links =
             Links { face_start: &face_start, corner_vertex: &corner_vertex, corner_face: &corner_face };
@@ -94,10 +94,15 @@ fn drop_unused_vertices(positions: Vec<Vec3>, corner_vertex: &mut [u32]) -> (Vec
     (source.iter().map(|&old| positions[old as usize]).collect(), Some(source))
 }
 
-fn corner_faces(face_start: &[u32], corner_count: usize) -> Vec<FaceId> {
+/// The face of each corner, as `id` makes it of its number.
+pub(crate) fn corner_faces<F: Clone>(
+    face_start: &[u32],
+    corner_count: usize,
+    id: impl Fn(u32) -> F,
+) -> Vec<F> {
     let mut faces = Vec::with_capacity(corner_count);
-    for (face, pair) in face_start.windows(2).enumerate() {
-        faces.resize(pair[1] as usize, FaceId(face as u32));
+    for (face, pair) in (0..).zip(face_start.windows(2)) {
+        faces.resize(pair[1] as usize, id(face));
     }
     faces
 }

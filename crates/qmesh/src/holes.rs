@@ -2,7 +2,6 @@
 
 use crate::ids::{HalfedgeId, VertexId};
 use crate::mesh::QuadMesh;
-use crate::polygons::Polygons;
 
 impl QuadMesh {
     /// Puts the longest of `loops` (in space) first; of equally long ones the one with most edges, then the first.
@@ -36,12 +35,7 @@ impl QuadMesh {
         let mut loops = self.boundary_loops();
         self.outer_first(&mut loops);
         let holes = loops.get(1..).filter(|holes| !holes.is_empty())?;
-        let view = self.view();
-        let mut polygons = Polygons {
-            positions: view.positions.to_vec(),
-            face_start: view.face_start.to_vec(),
-            corner_vertex: view.corner_vertex.to_vec(),
-        };
+        let mut polygons = self.view().to_polygons();
         let mut sources: Vec<u32> = self.vertices().map(|vertex| self.source_vertex(vertex)).collect();
         for hole in holes {
             let center = polygons.positions.len() as u32;

@@ -8,8 +8,7 @@ use std::fmt;
 pub trait Id: Copy + Eq + Ord + fmt::Debug + Send + Sync + 'static {
     /// The id with the given index.
     ///
-    /// # Panics
-    /// When `index` does not fit; meshes that large are refused when they are built.
+    /// `index` has to be below `u32::MAX`; only debug builds check that. Meshes that large are refused when they are built.
     fn from_index(index: usize) -> Self;
     /// The position in a flat array.
     fn index(self) -> usize;

@@ -30,6 +30,7 @@
 
 mod build;
 pub mod charts;
+mod components;
 mod data;
 mod error;
 mod holes;
@@ -46,6 +47,7 @@ mod topology;
 mod walk;
 
 pub use charts::{Chart, Charts, Found, Repairs};
+pub use components::Components;
 pub use data::{CornerData, EdgeData, ElementData, FaceData, HalfedgeData, VertexData};
 pub use error::BuildError;
 pub use ids::{CornerId, EdgeId, FaceId, HalfedgeId, Id, VertexId};

@@ -39,10 +39,9 @@ mod texture;
 mod write;
 
 use std::io::Read;
-use std::path::Path;
 
 pub use error::{EXCERPT_LIMIT, ObjError, ObjMistake, ObjMistakeKind};
-pub use plain::{write_mesh, write_obj};
+pub use plain::write_obj;
 pub use texture::{UvFormat, UvPrecision};
 pub use write::UvWriteSummary;
 
@@ -72,7 +71,7 @@ impl ObjDocument {
         Ok(Self { bytes, index })
     }
 
-    /// Takes everything that `input` has, for example standard input.
+    /// Takes everything that `input` has, for example a file or standard input.
     ///
     /// # Errors
     /// As [`parse`](Self::parse), and [`ObjError::Io`].
@@ -81,14 +80,6 @@ impl ObjDocument {
         input.read_to_end(&mut bytes)?;
         bytes.shrink_to_fit();
         Self::parse(bytes)
-    }
-
-    /// Takes a file.
-    ///
-    /// # Errors
-    /// As [`parse`](Self::parse), and [`ObjError::Io`].
-    pub fn from_path(path: impl AsRef<Path>) -> Result<Self, ObjError> {
-        Self::parse(std::fs::read(path)?)
     }
 }
 

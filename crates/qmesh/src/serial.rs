@@ -58,8 +58,8 @@ impl<'de> Deserialize<'de> for QuadMesh {
 
 impl Source {
     fn fits(&self, stored_count: usize) -> bool {
+        // Several vertices of a chart may have the same source, and centres of filled holes come last.
         self.vertices.len() == stored_count
-            && self.vertices.is_sorted_by(|a, b| a < b)
-            && self.vertices.last().is_none_or(|&last| (last as usize) < self.vertex_count)
+            && self.vertices.iter().all(|&source| (source as usize) < self.vertex_count)
     }
 }

@@ -71,7 +71,7 @@ impl QuadMesh {
     }
 
     /// The faces across the edges of `face`.
-    pub fn adjacent_faces(&self, face: FaceId) -> impl Iterator<Item = FaceId> + '_ {
+    fn adjacent_faces(&self, face: FaceId) -> impl Iterator<Item = FaceId> + '_ {
         self.face_corners(face)
             .filter_map(|corner| self.corner(self.twin(corner.halfedge())))
             .map(|corner: CornerId| self.face(corner))

@@ -24,7 +24,7 @@ pub use options::{AtlasError, AtlasOptions, Density, UpAxis};
 pub use refine::{Cut, Refinement, RefinementEnd};
 pub use stretch::{StretchMeasure, stretch};
 
-use qembed::qcurv::seams::opening;
+use qembed::qcurv::seams::{Interrupted, opening};
 use qembed::qmesh::{COORDINATE_LIMIT, Chart, Observer, PolygonView, Polygons, Repairs, Seams, Vec2, charts};
 use rayon::prelude::*;
 
@@ -155,22 +155,36 @@ pub fn unwrap(
     let mut seams = seams.clone();
     seams.extend(kept_seams(polygons, &options.keep).iter());
     let cut = charts::cut(polygons, &seams)?;
-    let pieces = if options.open { open(cut.charts) } else { cut.charts };
+    let pieces = if options.open { open(cut.charts, observer)? } else { cut.charts };
     tell(observer, "charts", 1.0)?;
     unwrap_charts(polygons, pieces, cut.repairs, options, observer)
 }
 
-/// Cuts the charts open that are no planar patches, by automatic seams.
-#[must_use]
-pub fn open(charts: Vec<Chart>) -> Vec<Chart> {
-    let opened: Vec<Vec<Chart>> = charts
+/// Cuts the charts open that are no planar patches, by automatic seams; by any that open them when the observer
+/// [is late](Observer::is_late).
+///
+/// # Errors
+/// [`AtlasError::Cancelled`] when the observer says so.
+pub fn open(charts: Vec<Chart>, observer: &dyn Observer) -> Result<Vec<Chart>, AtlasError> {
+    let shared = solve::Shared::new(observer, "charts", charts.len());
+    let opened: Vec<Result<Vec<Chart>, AtlasError>> = charts
         .into_par_iter()
         .map(|chart| {
-            let edges = opening(&chart.mesh);
-            if edges.is_empty() { vec![chart] } else { chart.cut(&edges) }
+            let edges = opening(&chart.mesh, &shared)?;
+            shared.count_one();
+            Ok(if edges.is_empty() { vec![chart] } else { chart.cut(&edges) })
         })
         .collect();
-    opened.into_iter().flatten().collect()
+    Ok(opened.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
+}
+
+impl From<Interrupted> for AtlasError {
+    fn from(interrupted: Interrupted) -> Self {
+        match interrupted {
+            Interrupted::Cancelled => Self::Cancelled,
+            Interrupted::OutOfTime => Self::OutOfTime,
+        }
+    }
 }
 
 /// As [`unwrap`], for charts that are there already; each face of `polygons` has to lie in one of them.

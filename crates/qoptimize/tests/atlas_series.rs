@@ -26,7 +26,7 @@ fn two() -> Polygons {
 fn a_series_is_as_good_as_single_maps() {
     let polygons = two();
     let found = cut(polygons.view(), &Seams::default()).unwrap();
-    let charts = open(found.charts);
+    let charts = open(found.charts, &()).expect("nobody interrupts");
     let mut before = Vec::new();
     for q in [1.0, 0.7, 0.4, 0.1] {
         let map = Options { q, ..Options::default() };

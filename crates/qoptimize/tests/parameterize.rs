@@ -292,7 +292,8 @@ fn real_meshes() {
         return;
     };
     for name in ["face_makehuman_disk.obj", "head_soma.obj"] {
-        let document = ObjDocument::from_path(std::path::Path::new(&folder).join(name)).unwrap();
+        let file = std::fs::File::open(std::path::Path::new(&folder).join(name)).unwrap();
+        let document = ObjDocument::read(file).unwrap();
         let mesh = QuadMesh::build(document.polygons()).unwrap();
         for method in METHODS {
             let map = parameterize(&mesh, &with(method), &()).unwrap();

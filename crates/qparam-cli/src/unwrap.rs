@@ -71,7 +71,10 @@ pub(crate) fn run(arguments: &UnwrapArgs, typed: &[String], io: &mut Streams<'_>
     let input = timed(&mut timings.read, || Input::read(&arguments.input, io.stdin))?;
     let mut options = arguments.layout.options(options);
     options.keep = keep::collect(&arguments.layout.keep_uv, &input)?;
-    let (charts, repairs) = timed(&mut timings.build, || charts(arguments, &options, &input, io))?;
+    // A limit beyond what the clock can count is none.
+    let limit = arguments.time_limit.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    let deadline = limit.and_then(|limit| start.checked_add(limit));
+    let (charts, repairs) = timed(&mut timings.build, || charts(arguments, &options, &input, deadline, io))?;
     if let (BoundaryShape::Fixed(positions), Some(path)) =
         (&mut options.map.boundary, &arguments.map.boundary_uv)
     {
@@ -85,9 +88,6 @@ pub(crate) fn run(arguments: &UnwrapArgs, typed: &[String], io: &mut Streams<'_>
     if options.map.symmetric {
         only_island("--symmetric", &charts, &input)?;
     }
-    // A limit beyond what the clock can count is none.
-    let limit = arguments.time_limit.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-    let deadline = limit.and_then(|limit| start.checked_add(limit));
     let mut job = Job { arguments, options, input, charts, repairs, target, deadline };
     let (result, stages) = timed(&mut timings.parameterize, || job.compute(io))?;
     timings.stages = stages;
@@ -116,6 +116,7 @@ fn charts(
     arguments: &UnwrapArgs,
     options: &AtlasOptions,
     input: &Input,
+    deadline: Option<Instant>,
     io: &mut Streams<'_>,
 ) -> Result<(Vec<Chart>, Repairs), Failure> {
     let mut seams = seams::collect(&arguments.layout.seams, input, io)?;
@@ -124,8 +125,12 @@ fn charts(
     if arguments.layout.strict {
         refuse_repairs(&cut.repairs, input)?;
     }
-    let open = || if options.open { open(cut.charts) } else { cut.charts };
-    Ok((threads::with(arguments.map.threads, open)?, cut.repairs))
+    if !options.open {
+        return Ok((cut.charts, cut.repairs));
+    }
+    let (count, watch) = (cut.charts.len(), Watch::new(io.interrupt, false).until(deadline));
+    let opened = threads::with(arguments.map.threads, || open(cut.charts, &watch))?;
+    Ok((opened.map_err(|error| no_atlas(&error, count, input))?, cut.repairs))
 }
 
 fn timed<T>(seconds: &mut f64, work: impl FnOnce() -> T) -> T {

@@ -38,7 +38,6 @@ mod options;
 mod order;
 mod simplified;
 
-mod components;
 mod graph;
 mod guarded;
 mod meetings;

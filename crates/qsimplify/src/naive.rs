@@ -6,9 +6,8 @@
 //! longest of several, cut at vertices that it passes twice into simple cycles of three vertices or more. Not listed are
 //! the walks around islands, chains and isolated vertices.
 
-use qcurv::qmesh::{HalfedgeId, QuadMesh, VertexData, VertexId};
+use qcurv::qmesh::{Components, HalfedgeId, QuadMesh, VertexData, VertexId};
 
-use crate::components::Components;
 use crate::simplified::Simplified;
 
 pub(crate) fn delete(mesh: &QuadMesh, candidates: &[VertexId]) -> Simplified {

@@ -1,8 +1,6 @@
 //! What is left, and the record of what was removed.
 
-use qcurv::qmesh::{ElementData, Polygons, QuadMesh, VertexData, VertexId};
-
-use crate::components::Components;
+use qcurv::qmesh::{Components, ElementData, Polygons, QuadMesh, VertexData, VertexId};
 
 /// The simplified mesh and the record of what was removed.
 #[derive(Clone, Debug, PartialEq)]

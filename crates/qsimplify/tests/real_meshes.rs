@@ -12,7 +12,8 @@ fn meshes(names: &[&'static str]) -> Vec<(&'static str, QuadMesh)> {
     };
     let folder = std::path::Path::new(&folder);
     let load = |name: &&'static str| {
-        let document = ObjDocument::from_path(folder.join(name).with_extension("obj")).unwrap();
+        let file = std::fs::File::open(folder.join(name).with_extension("obj")).unwrap();
+        let document = ObjDocument::read(file).unwrap();
         (*name, QuadMesh::build(document.polygons()).unwrap())
     };
     names.iter().map(load).collect()

@@ -6,7 +6,7 @@ use nalgebra_sparse::pattern::SparsityPattern;
 use rayon::prelude::*;
 
 use crate::check::{check_bound, check_matrix, check_rhs, check_square};
-use crate::factors::{Analysis, Factors};
+use crate::factors::{Analysis, Factors, KeptFactors};
 use crate::product::{column, norm, ratio, residual};
 use crate::solver::{LinearSolver, certified};
 use crate::{SolveError, SolveMethod, SolveRecord, Structure};
@@ -73,23 +73,17 @@ impl Symbolic {
     /// refined, and no residual computed.
     ///
     /// # Errors
-    /// [`SolveError::OtherPattern`] for factors of another analysis, [`SolveError::WrongRightHandSide`], or
+    /// [`SolveError::OtherPattern`] for factors of another analysis, of the same pattern too, [`SolveError::WrongRightHandSide`], or
     /// [`SolveError::TooLarge`] when memory runs out.
     pub fn solve_in_place(&self, factors: &KeptFactors, x: &mut [f64]) -> Result<(), SolveError> {
         let (expected, found) = (self.pattern.major_dim(), x.len());
         if expected != found {
             return Err(SolveError::WrongRightHandSide { expected, found });
         }
-        if !self.analysis.made(&factors.0) {
-            return Err(SolveError::OtherPattern);
-        }
-        self.analysis.solve_in_place(&factors.0, x)
+        let factors = self.analysis.recognize(factors).ok_or(SolveError::OtherPattern)?;
+        self.analysis.solve_in_place(factors, x)
     }
 }
-
-/// The factors of a matrix that need not be there any more: see [`Symbolic::solve_in_place`].
-#[derive(Debug)]
-pub struct KeptFactors(Factors);
 
 /// A factorized matrix: Cholesky or LU.
 #[derive(Debug)]
@@ -103,7 +97,7 @@ impl Factor<'_> {
     /// The factors alone, to precondition other matrices of the same pattern.
     #[must_use]
     pub fn into_factors(self) -> KeptFactors {
-        KeptFactors(self.factors)
+        self.analysis.keep(self.factors)
     }
 
     /// Solves with the factors, and refines while the residual asks for it and falls.
@@ -149,9 +143,6 @@ impl LinearSolver for Factor<'_> {
             .into_par_iter()
             .map(|k| self.solve_column(column(rhs, k)))
             .collect::<Result<_, _>>()?;
-        if columns.iter().any(|(x, _)| x.iter().any(|value| !value.is_finite())) {
-            return Err(SolveError::Singular { row: None });
-        }
         certified(self.matrix, rhs, columns, self.method(), bound)
     }
 }

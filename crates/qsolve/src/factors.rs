@@ -3,6 +3,8 @@
 //! Everything runs on one thread: with several, faer adds up in another order, and its multithreaded supernodal code
 //! has been reported to return wrong answers.
 
+use std::sync::Arc;
+
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::LltError;
 use faer::sparse::linalg::LuError;
@@ -21,6 +23,8 @@ use crate::{SolveError, SolveMethod, Structure};
 pub(crate) struct Analysis {
     columns: Columns,
     shape: Shape,
+    /// No other analysis has the same: factors of another one, of whatever size, mean nothing here.
+    identity: Arc<()>,
 }
 
 #[derive(Debug)]
@@ -38,6 +42,13 @@ pub(crate) enum Factors {
     Lu(Box<NumericLu<u32, f64>>),
 }
 
+/// The factors of a matrix that need not be there any more: see [`Symbolic::solve_in_place`](crate::Symbolic::solve_in_place).
+#[derive(Debug)]
+pub struct KeptFactors {
+    factors: Factors,
+    made_by: Arc<()>,
+}
+
 impl Analysis {
     /// Analyses a square matrix.
     pub(crate) fn new(matrix: &CsrMatrix<f64>, structure: Structure) -> Result<Self, SolveError> {
@@ -51,7 +62,7 @@ impl Analysis {
             Structure::General => factorize_symbolic_lu(pattern, Default::default()).map(Shape::Lu),
         };
         let shape = shape.map_err(|_| SolveError::TooLarge { unknowns: matrix.nrows() })?;
-        Ok(Self { columns, shape })
+        Ok(Self { columns, shape, identity: Arc::default() })
     }
 
     pub(crate) fn method(&self) -> SolveMethod {
@@ -149,13 +160,14 @@ impl Analysis {
         Ok(())
     }
 
-    /// Whether `factors` are of the kind and size that [`Analysis::factor`] makes.
-    pub(crate) fn made(&self, factors: &Factors) -> bool {
-        match (&self.shape, factors) {
-            (Shape::Cholesky(shape), Factors::Cholesky(values)) => values.len() == shape.len_val(),
-            (Shape::Lu(_), Factors::Lu(_)) => true,
-            _ => false,
-        }
+    /// Factors that know where they come from.
+    pub(crate) fn keep(&self, factors: Factors) -> KeptFactors {
+        KeptFactors { factors, made_by: Arc::clone(&self.identity) }
+    }
+
+    /// The factors, if it was this analysis that made them.
+    pub(crate) fn recognize<'a>(&self, kept: &'a KeptFactors) -> Option<&'a Factors> {
+        Arc::ptr_eq(&self.identity, &kept.made_by).then_some(&kept.factors)
     }
 
     fn memory(&self, needed: StackReq) -> Result<MemBuffer, SolveError> {

@@ -2,10 +2,15 @@
 //!
 //! Of a symmetric matrix it is the incomplete Cholesky factorization `L D Lᵀ`, so conjugate gradients can use it too.
 
+use std::ops::Range;
+
 use nalgebra_sparse::CsrMatrix;
 
 /// Stands for "not in this row".
 const ABSENT: u32 = u32::MAX;
+
+/// As many looks at a table cost about as much as a search.
+const FEW: usize = 8;
 
 /// `M = L U ≈ A` on the pattern of `A`; `L` has ones on its diagonal.
 #[derive(Clone, Debug)]
@@ -54,12 +59,7 @@ impl IncompleteLu {
             let pivot_row = self.columns[place] as usize;
             let factor = self.values[place] * self.inverse_diagonal[pivot_row];
             self.values[place] = factor;
-            for above in self.diagonal[pivot_row] + 1..self.offsets[pivot_row + 1] {
-                let target = place_of[self.columns[above] as usize];
-                if target != ABSENT {
-                    self.values[range.start + target as usize] -= factor * self.values[above];
-                }
-            }
+            self.subtract(factor, pivot_row, place + 1..range.end, range.start, place_of);
         }
         for place in range.clone() {
             place_of[self.columns[place] as usize] = ABSENT;
@@ -68,6 +68,33 @@ impl IncompleteLu {
         let present = diagonal < range.end && self.columns[diagonal] as usize == row;
         self.diagonal.push(diagonal);
         present.then_some(largest)
+    }
+
+    /// Subtracts `factor` times what `pivot_row` has right of its diagonal from the entries at `rest`, which are in the same columns. Goes
+    /// through the shorter of the two: a row with very many entries must not be gone through for each of them.
+    fn subtract(
+        &mut self,
+        factor: f64,
+        pivot_row: usize,
+        rest: Range<usize>,
+        start: usize,
+        place_of: &[u32],
+    ) {
+        let above = self.diagonal[pivot_row] + 1..self.offsets[pivot_row + 1];
+        if above.len() <= FEW * rest.len() {
+            for above in above {
+                let target = place_of[self.columns[above] as usize];
+                if target != ABSENT {
+                    self.values[start + target as usize] -= factor * self.values[above];
+                }
+            }
+            return;
+        }
+        for target in rest {
+            if let Ok(found) = self.columns[above.clone()].binary_search(&self.columns[target]) {
+                self.values[target] -= factor * self.values[above.start + found];
+            }
+        }
     }
 
     /// `z = M⁻¹ r`.
@@ -83,7 +110,7 @@ impl IncompleteLu {
     }
 
     #[inline]
-    fn row_product(&self, places: std::ops::Range<usize>, z: &[f64]) -> f64 {
+    fn row_product(&self, places: Range<usize>, z: &[f64]) -> f64 {
         let row = self.columns[places.clone()].iter().zip(&self.values[places]);
         row.map(|(&column, &value)| value * z[column as usize]).sum()
     }

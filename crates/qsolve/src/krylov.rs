@@ -1,4 +1,7 @@
-//! Krylov methods: memory of a few vectors, where factors would be too large.
+//! Krylov methods, where the factors of the matrix itself would be too large.
+//!
+//! Beside a few vectors they hold a preconditioner: of symmetric matrices one as large as the matrix; of general ones the Cholesky factor
+//! of a symmetric neighbour, a quarter of the LU factors, or with [`Krylov::multigrid`] a hierarchy about as large as the matrix.
 
 use nalgebra::DMatrix;
 use nalgebra_sparse::CsrMatrix;

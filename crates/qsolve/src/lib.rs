@@ -53,8 +53,9 @@ mod product;
 
 pub use assembly::Triplets;
 pub use conjugate::ConjugateGradients;
-pub use direct::{Factor, KeptFactors, Symbolic};
+pub use direct::{Factor, Symbolic};
 pub use error::SolveError;
+pub use factors::KeptFactors;
 pub use krylov::Krylov;
 pub use multigrid::{BlockMatrix, Multigrid, MultigridOptions};
 pub use nalgebra::DMatrix;

@@ -19,8 +19,9 @@ pub trait LinearSolver: Sync {
     /// Solves `A X = B`, `B` n × k. Each column is solved for itself, so its bits do not depend on the others.
     ///
     /// # Errors
-    /// [`SolveError::Inaccurate`] when the residual, computed afresh from `A`, is larger than `bound`;
-    /// [`SolveError::Singular`] when the answer is not finite; others where the right-hand side does not fit.
+    /// [`SolveError::Singular`] when the answer is not finite; [`SolveError::Inaccurate`] when the residual, computed afresh from `A`,
+    /// is larger than `bound`, or not a number. (Krylov iterations end with the last answer that is finite, and so with the latter.)
+    /// Others where the right-hand side does not fit.
     fn solve(&self, rhs: &DMatrix<f64>, bound: f64) -> Result<(DMatrix<f64>, SolveRecord), SolveError>;
 }
 
@@ -32,6 +33,9 @@ pub(crate) fn certified(
     method: SolveMethod,
     bound: f64,
 ) -> Result<(DMatrix<f64>, SolveRecord), SolveError> {
+    if columns.iter().any(|(x, _)| x.iter().any(|value| !value.is_finite())) {
+        return Err(SolveError::Singular { row: None });
+    }
     let iterations = columns.iter().map(|(_, taken)| *taken).max().unwrap_or(0);
     let values = columns.into_iter().flat_map(|(x, _)| x).collect();
     let solution = DMatrix::from_vec(rhs.nrows(), rhs.ncols(), values);

@@ -283,3 +283,35 @@ fn what_is_not_coupled_needs_no_levels() {
         assert!(distance(&x, &b) < 1e-12);
     }
 }
+
+/// The same answer in any unit: a matrix of another magnitude has the same bits in its answer, but for the exponent.
+#[test]
+fn the_magnitude_of_the_matrix_does_not_matter() {
+    let matrix = spd(40, 100.0, &mut Random::new(11));
+    let b = rhs(1600, 3, &mut Random::new(12));
+    let (x, record) = solver(&matrix).solve(&b, 1e-10).unwrap();
+    for exponent in [-900, -166, -100, -2, 2, 100, 166, 900] {
+        let factor = f64::from(exponent).exp2();
+        let mut scaled = matrix.clone();
+        scaled.values_mut().iter_mut().for_each(|value| *value *= factor);
+        let (y, again) = solver(&scaled).solve(&b, 1e-10).unwrap();
+        assert_eq!((y * factor, again), (x.clone(), record.clone()), "2^{exponent}");
+    }
+    for (entry, b) in [(1e50, 1.0), (1e-50, 1.0), (1e-300, 1e-300), (1e300, 1e300), (5e-324, 5e-324)] {
+        let (x, _) = single(entry).solve(&qsolve::DMatrix::from_element(1, 1, b), 1e-10).unwrap();
+        assert!((x[(0, 0)] * entry / b - 1.0).abs() < 1e-12, "{entry:e} x = {b:e}: {}", x[(0, 0)]);
+    }
+}
+
+/// An answer beyond the range of numbers is none.
+#[test]
+fn infinite_answers_are_refused() {
+    let refused = single(1e-30).solve(&qsolve::DMatrix::from_element(1, 1, 1e308), 1e-8);
+    assert_eq!(refused.unwrap_err(), SolveError::Singular { row: None });
+}
+
+fn single(entry: f64) -> ScalarMultigrid {
+    let mut matrix = BlockMatrix::zeros(vec![0, 1], vec![0]).expect("one entry");
+    matrix.fill_rows(|_, _, values| values[0] = [[entry]]);
+    ScalarMultigrid::new(matrix, 100).expect("a positive entry")
+}

@@ -232,3 +232,50 @@ fn kept_factors_outlive_their_matrix() {
         Err(SolveError::WrongRightHandSide { .. })
     ));
 }
+
+/// Factors of another analysis are refused, however alike: of LU in another size and in the same, of Cholesky with as many entries elsewhere,
+/// and of the very same matrix analysed again.
+#[test]
+fn factors_of_another_analysis_are_refused() {
+    let mut random = Random::new(6);
+    let chain = |links: &[usize]| {
+        let mut triplets = Triplets::new(links.len(), links.len());
+        for (row, &other) in links.iter().enumerate() {
+            triplets.add(row, row, 4.0);
+            if other != row {
+                triplets.add(row, other, -1.0);
+                triplets.add(other, row, -1.0);
+            }
+        }
+        triplets.build().unwrap()
+    };
+    let large = row_normalized(9, &mut random);
+    for (structure, made, used) in [
+        (Structure::General, large.clone(), row_normalized(8, &mut random)),
+        (Structure::General, large.clone(), spd(9, 10.0, &mut random)),
+        (Structure::General, large.clone(), large),
+        (SPD, chain(&[0, 0, 1, 2]), chain(&[0, 0, 0, 0])),
+    ] {
+        let kept = Symbolic::analyze(&made, structure).unwrap().factor(&made).unwrap().into_factors();
+        let other = Symbolic::analyze(&used, structure).unwrap();
+        let refused = other.solve_in_place(&kept, &mut vec![1.0; used.nrows()]);
+        assert_eq!(refused, Err(SolveError::OtherPattern), "{structure:?}, {} rows", used.nrows());
+    }
+}
+
+/// This would not end if each of its neighbours went through all entries of the first row.
+#[test]
+fn a_hub_with_very_many_neighbors_is_preconditioned() {
+    let n = 400_000;
+    let mut triplets = Triplets::new(n, n);
+    triplets.add(0, 0, n as f64);
+    for row in 1..n {
+        triplets.add(row, row, 2.0);
+        triplets.add(0, row, -1.0);
+        triplets.add(row, 0, -1.0);
+    }
+    let matrix = triplets.build().unwrap();
+    let b = DMatrix::from_element(n, 1, 1.0);
+    let (_, record) = Krylov::new(&matrix, SPD, 50).unwrap().solve(&b, 1e-7).unwrap();
+    assert!(record.iterations < 20, "{record:?}");
+}

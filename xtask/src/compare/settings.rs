@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use qparam_cli::qmesh::obj::ObjDocument;
 use qparam_cli::qmesh::{QuadMesh, Vec2, VertexData};
 use qparam_cli::qoptimize::direct::{DescentOptions, Objective, minimize};
 use qparam_cli::qoptimize::{AngleTerm, Distortion, Exempt, Method, Options, certify, measure, parameterize};
@@ -35,7 +34,7 @@ pub(super) struct Spot {
 /// Reads a mesh.
 pub(super) fn load(path: &Path) -> Result<QuadMesh, String> {
     let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
-    let document = ObjDocument::from_path(path).map_err(|error| failed(&error))?;
+    let document = crate::meshes::document(path).map_err(|error| failed(&error))?;
     QuadMesh::build(document.polygons()).map_err(|error| failed(&error))
 }
 

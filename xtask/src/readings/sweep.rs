@@ -4,25 +4,19 @@ use qparam_cli::qembed::BoundaryShape;
 use qparam_cli::qmesh::QuadMesh;
 use qparam_cli::qoptimize::Options;
 use qparam_cli::qsimplify::RemovalRule;
+use qparam_cli::sweep::TABLE_1_Q;
 
 use super::inputs::{WEIGHTS, models, paper, run};
 use super::table::{Table, series};
-
-/// The columns of Table 1.
-const Q: [f64; 5] = [1.0, 0.8, 0.5, 0.2, 0.0];
-/// Table 1: E_A and E_x of the paper's face (a) and head (e).
-const TABLE_1: [(&str, [f64; 5], [f64; 5]); 2] = [
-    ("(a)", [8.74, 10.98, 14.20, 17.41, 20.01], [30.93, 26.44, 22.58, 20.27, 19.63]),
-    ("(e)", [12.56, 15.42, 18.95, 25.83, 29.57], [44.81, 39.87, 31.25, 28.21, 25.42]),
-];
+use crate::sweep::printed::{FACE, HEAD, Printed};
 
 pub(super) fn section() -> Result<String, String> {
     let mut table = Table::new(
         "mesh | rule, weights, boundary | E13 | E14 | most flips | E13 rises | E14 falls | least sum at q",
     );
-    for (name, angle, area) in TABLE_1 {
-        let mut row = vec![name.to_owned(), "Table 1 of the paper".to_owned()];
-        row.extend(verdict(&angle, &area, None));
+    for Printed { letter, angle, area } in [&FACE, &HEAD] {
+        let mut row = vec![format!("({letter})"), "Table 1 of the paper".to_owned()];
+        row.extend(verdict(angle, area, None));
         table.row(&row);
     }
     let boundaries = [("circle", BoundaryShape::Circle), ("projection", BoundaryShape::Projection)];
@@ -46,7 +40,7 @@ pub(super) fn section() -> Result<String, String> {
 fn row(name: &str, reading: &str, mesh: &QuadMesh, base: &Options) -> Result<Vec<String>, String> {
     let mut row = vec![name.to_owned(), reading.to_owned()];
     let (mut angle, mut area, mut flips) = ([0.0; 5], [0.0; 5], 0);
-    for (k, q) in Q.into_iter().enumerate() {
+    for (k, q) in TABLE_1_Q.into_iter().enumerate() {
         match run(mesh, &Options { q, ..base.clone() }) {
             Ok(map) => {
                 angle[k] = map.distortion.angle_error;
@@ -75,14 +69,14 @@ fn verdict(angle: &[f64; 5], area: &[f64; 5], flips: Option<usize>) -> [String; 
         flips.map_or("–".to_owned(), |count| count.to_string()),
         answer(rises),
         answer(falls),
-        Q[least(angle, area)].to_string(),
+        TABLE_1_Q[least(angle, area)].to_string(),
     ]
 }
 
 /// Where the sum is least.
 fn least(angle: &[f64; 5], area: &[f64; 5]) -> usize {
     let sum = |k: &usize| angle[*k] + area[*k];
-    (0..Q.len()).min_by(|a, b| sum(a).total_cmp(&sum(b))).unwrap_or(0)
+    (0..TABLE_1_Q.len()).min_by(|a, b| sum(a).total_cmp(&sum(b))).unwrap_or(0)
 }
 
 #[cfg(test)]
@@ -92,8 +86,8 @@ mod tests {
     /// What the paper says of its Table 1: both trends, and the least sum at q = 0.5.
     #[test]
     fn table_1_has_its_three_features() {
-        for (_, angle, area) in TABLE_1 {
-            assert_eq!(verdict(&angle, &area, None)[3..], ["yes", "yes", "0.5"]);
+        for Printed { angle, area, .. } in [&FACE, &HEAD] {
+            assert_eq!(verdict(angle, area, None)[3..], ["yes", "yes", "0.5"]);
         }
     }
 }

@@ -4,19 +4,23 @@ use qparam_cli::sweep::{Errors, TABLE_1_Q};
 
 /// The rows of one model.
 #[derive(Debug)]
-pub(super) struct Printed {
+pub(crate) struct Printed {
     /// The letter in the table.
-    pub(super) letter: &'static str,
-    angle: [f64; 5],
-    area: [f64; 5],
+    pub(crate) letter: &'static str,
+    /// The sums of Eq. 13 in the order of `TABLE_1_Q`.
+    pub(crate) angle: [f64; 5],
+    /// Those of Eq. 14.
+    pub(crate) area: [f64; 5],
 }
 
-const FACE: Printed = Printed {
+/// The paper's face.
+pub(crate) const FACE: Printed = Printed {
     letter: "a",
     angle: [8.74, 10.98, 14.20, 17.41, 20.01],
     area: [30.93, 26.44, 22.58, 20.27, 19.63],
 };
-const HEAD: Printed = Printed {
+/// The paper's head.
+pub(crate) const HEAD: Printed = Printed {
     letter: "e",
     angle: [12.56, 15.42, 18.95, 25.83, 29.57],
     area: [44.81, 39.87, 31.25, 28.21, 25.42],

@@ -1,6 +1,6 @@
 //! What it costs to cut an edge.
 
-use qmesh::{EdgeData, EdgeId, FaceId, HalfedgeId, QuadMesh, Vec3};
+use qmesh::{EdgeData, EdgeId, FaceId, HalfedgeData, HalfedgeId, QuadMesh, Vec3, VertexData, VertexId};
 
 /// A bend that counts as a crease, in radians: an edge that bends as much costs about half of a flat one.
 const CREASE: f64 = 0.6;
@@ -12,6 +12,9 @@ const TURN: f64 = 1.0;
 pub struct SeamCost {
     /// The length of each edge, less where the surface bends.
     pub edges: EdgeData<f64>,
+    /// Which of the halfedges that leave its origin each one is, counter-clockwise.
+    rank: HalfedgeData<u32>,
+    valence: VertexData<u32>,
 }
 
 impl SeamCost {
@@ -28,7 +31,8 @@ impl SeamCost {
             let hidden = if bend < 0.0 { crease.min(1.0) } else { 0.0 };
             mesh.edge_length(edge).max(least) / (1.0 + crease.min(4.0) + hidden)
         });
-        Self { edges }
+        let (rank, valence) = ranks(mesh);
+        Self { edges, rank, valence }
     }
 
     /// What it costs to go on from `before` to `after`, which leaves where `before` ends: nothing straight on, one edge
@@ -36,24 +40,20 @@ impl SeamCost {
     #[must_use]
     pub fn turn(&self, mesh: &QuadMesh, before: HalfedgeId, after: HalfedgeId) -> f64 {
         let vertex = mesh.target(before);
-        let back = mesh.twin(before);
-        let (mut count, mut from, mut to) = (0, 0, 0);
-        for (place, halfedge) in mesh.outgoing(vertex).enumerate() {
-            count += 1;
-            if halfedge == back {
-                from = place as i32;
-            }
-            if halfedge == after {
-                to = place as i32;
-            }
-        }
-        if count == 0 || mesh.is_boundary(vertex) {
+        if mesh.is_boundary(vertex) {
             return 0.0;
         }
-        let apart = f64::from((to - from).rem_euclid(count)) / f64::from(count);
+        let count = self.valence[vertex];
+        let (from, to) = (self.rank[mesh.twin(before)], self.rank[after]);
+        let apart = f64::from((to + count - from) % count) / f64::from(count);
         let length = |halfedge| mesh.edge_length(mesh.edge(halfedge));
         // A right angle is half way between straight on and back.
         2.0 * (2.0 * apart - 1.0).abs() * TURN * 0.5 * (length(before) + length(after))
+    }
+
+    /// How many edges meet at `vertex`, in constant time.
+    pub(super) fn valence(&self, vertex: VertexId) -> u32 {
+        self.valence[vertex]
     }
 
     /// The sum over edges.
@@ -61,6 +61,20 @@ impl SeamCost {
     pub fn of(&self, edges: &[EdgeId]) -> f64 {
         edges.iter().map(|&edge| self.edges[edge]).sum()
     }
+}
+
+/// The rank of each halfedge around its origin, and the valences: walking around a vertex for every turn there would take cubic time.
+fn ranks(mesh: &QuadMesh) -> (HalfedgeData<u32>, VertexData<u32>) {
+    let mut rank = HalfedgeData::filled(mesh.halfedge_count(), 0);
+    let valence = mesh.vertex_data(|vertex| {
+        let mut count = 0;
+        for halfedge in mesh.outgoing(vertex) {
+            rank[halfedge] = count;
+            count += 1;
+        }
+        count
+    });
+    (rank, valence)
 }
 
 /// The angle between the mean normals of the faces of each edge, in radians: positive where the surface is convex, 0 on the

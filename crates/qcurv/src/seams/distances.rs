@@ -10,7 +10,7 @@ pub(super) fn key(distance: f64) -> u64 {
     distance.to_bits()
 }
 
-/// The length of the shortest path from each vertex to `sources`, along edges and between corners of one face. Infinite where no
+/// The length of the shortest path from each vertex to `sources`, along edges and across the diagonals of quads. Infinite where no
 /// path leads.
 pub(super) fn distances(mesh: &QuadMesh, sources: &[VertexId]) -> VertexData<f64> {
     let mut distance = VertexData::filled(mesh.vertex_count(), f64::INFINITY);

@@ -3,10 +3,11 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use qmesh::{EdgeData, EdgeId, HalfedgeId, QuadMesh, VertexData, VertexId};
+use qmesh::{Components, EdgeData, EdgeId, HalfedgeId, Observer, QuadMesh, VertexData, VertexId};
 
 use super::distances::{distances, farthest, key};
-use super::{SeamCost, patch, paths, prune};
+use super::interrupted::look;
+use super::{Interrupted, SeamCost, patch, paths, prune};
 
 /// Base points that are tried.
 const BASES: usize = 12;
@@ -14,21 +15,32 @@ const BASES: usize = 12;
 const CORRIDOR: usize = 4;
 
 /// A short system of edges along which cutting makes a planar patch of a connected mesh with handles.
-pub(super) fn open(mesh: &QuadMesh, cost: &SeamCost) -> Vec<EdgeId> {
-    let systems = bases(mesh).into_iter().map(|base| system(mesh, cost, base));
-    let best = systems.reduce(|best, next| if cost.of(&next) < cost.of(&best) { next } else { best });
-    let loops = best.unwrap_or_default();
-    let straight = straightened(mesh, cost, &loops);
+pub(super) fn open(
+    mesh: &QuadMesh,
+    cost: &SeamCost,
+    observer: &dyn Observer,
+) -> Result<Vec<EdgeId>, Interrupted> {
+    let mut loops: Vec<EdgeId> = Vec::new();
+    let bases = bases(mesh, observer)?;
+    for (done, &base) in bases.iter().enumerate() {
+        look(observer, 0.1 + 0.3 * done as f64 / bases.len() as f64)?;
+        let next = system(mesh, cost, base);
+        if done == 0 || cost.of(&next) < cost.of(&loops) {
+            loops = next;
+        }
+    }
+    let straight = straightened(mesh, cost, &loops, observer)?;
     // The same patch, not one that is left with another number of loops because two arcs came to lie on each other.
     let is_alike = patch(mesh, &straight).is_some_and(|found| Some(found) == patch(mesh, &loops));
-    if cost.of(&straight) < 1.5 * cost.of(&loops) && is_alike { straight } else { loops }
+    Ok(if cost.of(&straight) < 1.5 * cost.of(&loops) && is_alike { straight } else { loops })
 }
 
 /// Points spread over the surface.
-fn bases(mesh: &QuadMesh) -> Vec<VertexId> {
+fn bases(mesh: &QuadMesh, observer: &dyn Observer) -> Result<Vec<VertexId>, Interrupted> {
     let mut bases = vec![farthest(&distances(mesh, &[VertexId(0)]))];
     let mut nearest = distances(mesh, &bases);
     while bases.len() < BASES {
+        look(observer, 0.1 * bases.len() as f64 / BASES as f64)?;
         let next = farthest(&nearest);
         let from_next = distances(mesh, &[next]);
         for vertex in mesh.vertices() {
@@ -36,12 +48,12 @@ fn bases(mesh: &QuadMesh) -> Vec<VertexId> {
         }
         bases.push(next);
     }
-    bases
+    Ok(bases)
 }
 
 /// The union of the greedy loops through `base`, without what hangs loose.
 fn system(mesh: &QuadMesh, cost: &SeamCost, base: VertexId) -> Vec<EdgeId> {
-    let (distance, parent) = tree(mesh, cost, base);
+    let (distance, mut parent) = tree(mesh, cost, base);
     let mut in_tree = mesh.edge_data(|_| false);
     for halfedge in parent.iter().flatten() {
         in_tree[mesh.edge(*halfedge)] = true;
@@ -50,7 +62,8 @@ fn system(mesh: &QuadMesh, cost: &SeamCost, base: VertexId) -> Vec<EdgeId> {
     for edge in left_over(mesh, cost, &distance, &in_tree) {
         edges.push(edge);
         for mut vertex in mesh.edge_vertices(edge) {
-            while let Some(halfedge) = parent[vertex] {
+            // Taken: from here on another loop went the same way.
+            while let Some(halfedge) = parent[vertex].take() {
                 edges.push(mesh.edge(halfedge));
                 vertex = mesh.origin(halfedge);
             }
@@ -105,24 +118,10 @@ fn left_over(
     };
     let mut others: Vec<EdgeId> = mesh.edges().filter(|&edge| !in_tree[edge]).collect();
     others.sort_by(|&a, &b| around(b).total_cmp(&around(a)).then(a.cmp(&b)));
-    let mut parent: Vec<u32> = (0..mesh.halfedge_count() as u32).collect();
-    let mut root = move |mut node: u32, join: Option<u32>| {
-        while parent[node as usize] != node {
-            parent[node as usize] = parent[parent[node as usize] as usize];
-            node = parent[node as usize];
-        }
-        if let Some(other) = join {
-            parent[node as usize] = other;
-        }
-        node
-    };
+    let mut joined = Components::new(mesh.halfedge_count());
     let is_left = |edge: &EdgeId| {
         let halfedge = mesh.halfedge(*edge);
-        let [a, b] = [halfedge, mesh.twin(halfedge)].map(|h| root(side[h.index()], None));
-        if a != b {
-            root(a, Some(b));
-        }
-        a == b
+        !joined.join(side[halfedge.index()], side[mesh.twin(halfedge).index()])
     };
     others.into_iter().filter(is_left).collect()
 }
@@ -138,43 +137,58 @@ fn sides(mesh: &QuadMesh) -> Vec<u32> {
 }
 
 /// The same arcs between the same branchings, each led anew along edge loops as far as they stay close.
-fn straightened(mesh: &QuadMesh, cost: &SeamCost, edges: &[EdgeId]) -> Vec<EdgeId> {
+fn straightened(
+    mesh: &QuadMesh,
+    cost: &SeamCost,
+    edges: &[EdgeId],
+    observer: &dyn Observer,
+) -> Result<Vec<EdgeId>, Interrupted> {
     let mut result = Vec::new();
     let arcs = arcs(mesh, edges);
     let mut others = mesh.vertex_data(|_| 0u32);
     for vertex in arcs.iter().flatten() {
         others[*vertex] += 1;
     }
-    for arc in &arcs {
-        let near = corridor(mesh, arc, &others);
-        let (start, end) = (arc[0], arc[arc.len() - 1]);
-        let mut blocked = cost.clone();
-        for edge in mesh.edges().filter(|&edge| mesh.edge_vertices(edge).iter().any(|&v| !near[v])) {
-            blocked.edges[edge] = f64::INFINITY;
-        }
-        result.extend(paths::cheapest_path(mesh, &blocked, &[start], |vertex| vertex == end));
+    // Made once, for there may be many arcs.
+    let mut search = paths::SeamPaths::new(mesh);
+    let (mut is_near, mut near) = (mesh.vertex_data(|_| false), Vec::new());
+    for (done, arc) in arcs.iter().enumerate() {
+        look(observer, 0.4 + 0.1 * done as f64 / arcs.len() as f64)?;
+        corridor(mesh, arc, &others, &mut is_near, &mut near);
+        let is_end = |vertex| vertex == arc[arc.len() - 1];
+        search.run(mesh, cost, &arc[..1], |vertex| is_near[vertex], is_end);
+        result.extend(search.path_to(mesh, is_end));
+        search.forget(mesh, &near);
+        near.drain(..).for_each(|vertex| is_near[vertex] = false);
     }
     result.sort_unstable();
     result.dedup();
-    result
+    Ok(result)
 }
 
-/// The vertices near an arc, not counting those of other arcs.
-fn corridor(mesh: &QuadMesh, arc: &[VertexId], taken: &VertexData<u32>) -> VertexData<bool> {
-    let mut near = mesh.vertex_data(|_| false);
-    let mut front: Vec<VertexId> = arc.to_vec();
-    arc.iter().for_each(|&vertex| near[vertex] = true);
+/// Marks and lists the vertices near an arc, not counting those of other arcs.
+fn corridor(
+    mesh: &QuadMesh,
+    arc: &[VertexId],
+    taken: &VertexData<u32>,
+    is_near: &mut VertexData<bool>,
+    near: &mut Vec<VertexId>,
+) {
+    arc.iter().for_each(|&vertex| is_near[vertex] = true);
+    near.extend(arc);
+    let mut front = 0;
     for _ in 0..CORRIDOR.min(arc.len() / 3) {
-        let mut next = Vec::new();
-        for vertex in front.iter().flat_map(|&vertex| mesh.neighbors(vertex)) {
-            if taken[vertex] == 0 && !mesh.is_boundary(vertex) && !std::mem::replace(&mut near[vertex], true)
-            {
-                next.push(vertex);
+        let end = near.len();
+        for place in front..end {
+            for vertex in mesh.neighbors(near[place]) {
+                let is_free = taken[vertex] == 0 && !mesh.is_boundary(vertex);
+                if is_free && !std::mem::replace(&mut is_near[vertex], true) {
+                    near.push(vertex);
+                }
             }
         }
-        front = next;
+        front = end;
     }
-    near
 }
 
 /// The edges as walks between vertices where they branch or end; closed walks are split in three.
@@ -186,11 +200,13 @@ fn arcs(mesh: &QuadMesh, edges: &[EdgeId]) -> Vec<Vec<VertexId>> {
         let from = at.partition_point(|&(v, _)| v < vertex);
         at[from..].iter().take_while(move |&&(v, _)| v == vertex).map(|&(_, edge)| edge)
     };
-    let is_node = |vertex: VertexId| around(vertex).count() != 2;
+    let is_node = |vertex: VertexId| around(vertex).take(3).count() != 2;
     let mut seen = std::collections::HashSet::new();
     let mut walks = Vec::new();
-    let nodes = at.iter().map(|&(vertex, _)| vertex).filter(|&vertex| is_node(vertex));
-    for start in nodes.chain(at.iter().map(|&(vertex, _)| vertex)) {
+    let mut vertices: Vec<VertexId> = at.iter().map(|&(vertex, _)| vertex).collect();
+    vertices.dedup();
+    let nodes = vertices.iter().copied().filter(|&vertex| is_node(vertex));
+    for start in nodes.chain(vertices.iter().copied()) {
         for first in around(start).collect::<Vec<_>>() {
             let (mut walk, mut edge, mut vertex) = (vec![start], first, start);
             while seen.insert(edge) {

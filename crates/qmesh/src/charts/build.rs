@@ -6,6 +6,7 @@ use super::orient::Sides;
 use super::pairs::after;
 use super::{Chart, Repairs};
 use crate::build::NONE;
+use crate::components::Components;
 use crate::error::BuildError;
 use crate::mesh::QuadMesh;
 use crate::polygons::{PolygonView, Polygons};
@@ -18,7 +19,8 @@ pub(super) fn charts(
     alone: &[u32],
     repairs: &mut Repairs,
 ) -> Result<Vec<Chart>, BuildError> {
-    let mut fans = Fans::new(polygons.corner_count());
+    // Corners of one fan are one vertex.
+    let mut fans = Components::new(polygons.corner_count());
     for (corner, &mate) in
         mates.iter().enumerate().filter(|&(corner, &mate)| mate != NONE && mate > corner as u32)
     {
@@ -69,31 +71,6 @@ fn chart(
     Ok(Chart { mesh, faces, corners })
 }
 
-/// Union-find over corners: those of one fan are one vertex.
-struct Fans {
-    parent: Vec<u32>,
-}
-
-impl Fans {
-    fn new(corners: usize) -> Self {
-        Self { parent: (0..corners as u32).collect() }
-    }
-
-    fn root(&mut self, mut corner: u32) -> u32 {
-        while self.parent[corner as usize] != corner {
-            let above = self.parent[self.parent[corner as usize] as usize];
-            self.parent[corner as usize] = above;
-            corner = above;
-        }
-        corner
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.parent[a.max(b) as usize] = a.min(b);
-    }
-}
-
 /// The vertices of all charts.
 struct Vertices {
     /// The vertex of each corner, in the numbers of its chart.
@@ -105,7 +82,7 @@ struct Vertices {
 
 impl Vertices {
     /// Numbered in the order of the caller's vertices, and of several for one by first corner.
-    fn new(polygons: PolygonView<'_>, fans: &mut Fans, sides: &Sides) -> Self {
+    fn new(polygons: PolygonView<'_>, fans: &mut Components, sides: &Sides) -> Self {
         let piece = |corner: u32| sides.piece[sides.corner_face[corner as usize] as usize] as usize;
         let corners = polygons.corner_count();
         let roots: Vec<u32> = (0..corners as u32).map(|corner| fans.root(corner)).collect();

@@ -1,5 +1,7 @@
 //! Faces that repeat an earlier one.
 
+use std::cmp::Ordering;
+
 use rayon::prelude::*;
 
 use super::Repairs;
@@ -45,12 +47,65 @@ fn fingerprint(vertices: &[u32]) -> u64 {
 
 /// The same for the same closed walk, wherever it starts and whichever way it goes.
 fn canonical(vertices: &[u32]) -> Vec<u32> {
-    let turned = |vertices: Vec<u32>| {
-        let lowest = vertices.iter().min().copied().unwrap_or(0);
-        let starts = (0..vertices.len()).filter(|&i| vertices[i] == lowest);
-        let from = |start: usize| [&vertices[start..], &vertices[..start]].concat();
-        starts.map(from).min().unwrap_or_default()
+    let turned = |mut walk: Vec<u32>| {
+        let start = least_rotation(&walk);
+        walk.rotate_left(start);
+        walk
     };
     let backwards = vertices.iter().rev().copied().collect();
     turned(vertices.to_vec()).min(turned(backwards))
+}
+
+/// Where a closed walk starts when it is read as the least of all its rotations, in linear time however often it visits its lowest
+/// vertex: of two starts that agree for `same` steps and then differ, the greater one is out, and with it the `same` starts behind it.
+fn least_rotation(walk: &[u32]) -> usize {
+    let count = walk.len();
+    let (mut best, mut other, mut same) = (0, 1, 0);
+    while best < count && other < count && same < count {
+        let [here, there] = [best, other].map(|start| walk[(start + same) % count]);
+        match here.cmp(&there) {
+            Ordering::Equal => same += 1,
+            Ordering::Less => (other, same) = (other + same + 1, 0),
+            Ordering::Greater => (best, same) = (best + same + 1, 0),
+        }
+        if best == other {
+            other += 1;
+        }
+    }
+    best.min(other)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// The least of all copies of a walk, from each start and in both directions.
+    fn by_definition(walk: &[u32]) -> Vec<u32> {
+        let turned = |start: usize| [&walk[start..], &walk[..start]].concat();
+        let both = |walk: Vec<u32>| [walk.iter().rev().copied().collect(), walk];
+        (0..walk.len()).map(turned).flat_map(both).min().unwrap_or_default()
+    }
+
+    proptest! {
+        #[test]
+        fn walks_are_read_from_their_least_start(
+            part in proptest::collection::vec(0u32..3, 0..9),
+            times in 1usize..4,
+            end in proptest::collection::vec(0u32..3, 0..3),
+        ) {
+            let walk = [part.repeat(times), end].concat();
+            prop_assert_eq!(canonical(&walk), by_definition(&walk));
+        }
+    }
+
+    /// This would not end if each visit of the lowest vertex took the time of the whole walk.
+    #[test]
+    fn a_walk_that_visits_one_vertex_very_often() {
+        let walk: Vec<u32> =
+            (0..2_000_000).map(|step| if step % 2 == 0 { 0 } else { 1 + step / 2 }).collect();
+        assert_eq!(canonical(&walk)[..2], [0, 1]);
+        assert_eq!(canonical(&vec![7; 2_000_000]).len(), 2_000_000);
+    }
 }

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use super::Repairs;
 use super::pairs::after;
-use crate::build::NONE;
+use crate::build::{NONE, corner_faces};
 use crate::polygons::PolygonView;
 
 /// The piece of each face, and whether it is turned over there.
@@ -30,7 +30,7 @@ pub(super) fn orient(
         piece: vec![NONE; faces],
         pieces: 0,
         is_flipped: vec![false; faces],
-        corner_face: corner_faces(polygons),
+        corner_face: corner_faces(polygons.face_start, polygons.corner_count(), |face| face),
     };
     let mut members = Vec::with_capacity(faces);
     let mut starts = vec![0];
@@ -136,12 +136,4 @@ fn separate(polygons: PolygonView<'_>, mates: &mut [u32], sides: &Sides, repairs
 /// Whether two faces run the same way along their edge: neighbours that agree do not.
 fn same_way(polygons: PolygonView<'_>, corner: u32, mate: u32) -> bool {
     polygons.corner_vertex[corner as usize] == polygons.corner_vertex[mate as usize]
-}
-
-fn corner_faces(polygons: PolygonView<'_>) -> Vec<u32> {
-    let mut faces = Vec::with_capacity(polygons.corner_count());
-    for (face, pair) in polygons.face_start.windows(2).enumerate() {
-        faces.resize(pair[1] as usize, face as u32);
-    }
-    faces
 }

@@ -4,8 +4,6 @@ use std::io::{self, Write};
 
 use rayon::prelude::*;
 
-use super::texture::UvFormat;
-use super::texture::UvPrecision;
 use crate::{Vec2, Vec3};
 
 /// A piece of text in the making: numbers without allocation.
@@ -49,17 +47,12 @@ impl Piece {
         }
     }
 
-    /// `uv` has been rounded by `format` already.
-    pub(super) fn texture(&mut self, uv: Vec2, format: UvFormat) {
+    /// With the fewest digits that read back as the same numbers.
+    pub(super) fn texture(&mut self, uv: Vec2) {
         self.bytes(b"vt");
-        let mut buffer = zmij::Buffer::new();
         for &x in &uv {
             self.bytes(b" ");
-            let digits = match format.precision {
-                UvPrecision::Double => buffer.format(x),
-                UvPrecision::Single => buffer.format(x as f32),
-            };
-            self.bytes(digits.as_bytes());
+            self.bytes(zmij::Buffer::new().format(x).as_bytes());
         }
     }
 }

@@ -4,9 +4,9 @@ use std::io::{self, Write};
 use std::ops::Range;
 
 use super::output::{Piece, write_pieces};
-use super::texture::{TextureTable, UvFormat, invalid};
+use super::texture::{TextureTable, invalid};
+use crate::Vec2;
 use crate::polygons::PolygonView;
-use crate::{QuadMesh, Vec2};
 
 /// Writes polygons as OBJ text: `v` lines, `vt` lines if there are UVs (one per corner), `f` lines. Lines end with LF.
 ///
@@ -27,9 +27,8 @@ pub fn write_obj(
     corner_uv: Option<&[Vec2]>,
 ) -> io::Result<()> {
     check(polygons)?;
-    let format = UvFormat::default();
     let table = corner_uv
-        .map(|uv| TextureTable::new(polygons.positions.len(), polygons.corner_vertex, uv, format))
+        .map(|uv| TextureTable::new(polygons.positions.len(), polygons.corner_vertex, uv))
         .transpose()?;
     let faces = polygons.face_count();
     let vertices = polygons.positions.len();
@@ -47,7 +46,7 @@ pub fn write_obj(
         }
         Job::Values(range) => {
             for uv in table.iter().flat_map(|table| table.values(range.clone())) {
-                piece.texture(uv, format);
+                piece.texture(uv);
                 piece.bytes(b"\n");
             }
         }
@@ -86,14 +85,6 @@ fn write_faces(
         }
         piece.bytes(b"\n");
     }
-}
-
-/// A mesh as OBJ text, as [`write_obj`] writes its polygons; vertices are numbered as in the mesh.
-///
-/// # Errors
-/// As [`write_obj`].
-pub fn write_mesh(out: &mut impl Write, mesh: &QuadMesh, corner_uv: Option<&[Vec2]>) -> io::Result<()> {
-    write_obj(out, mesh.view(), corner_uv)
 }
 
 fn check(polygons: PolygonView<'_>) -> io::Result<()> {

@@ -8,17 +8,17 @@ use rayon::prelude::*;
 use super::parse::NONE;
 use crate::Vec2;
 
-/// How UVs are written.
+/// How UVs are rounded before they are written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case", default))]
 #[non_exhaustive]
 pub struct UvFormat {
-    /// How many digits coordinates get. Default: as many as `f64` needs.
+    /// What they are rounded to. Default: nothing is.
     pub precision: UvPrecision,
 }
 
-/// How exactly UVs are written: always with the fewest digits that read back as the same number.
+/// How exact UVs are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -27,7 +27,7 @@ pub enum UvPrecision {
     /// The same `f64`.
     #[default]
     Double,
-    /// The nearest `f32`: what most programs keep of it. Corners that differ in less share a `vt`.
+    /// The nearest `f32`: what most programs keep of it.
     Single,
 }
 
@@ -38,7 +38,7 @@ impl UvFormat {
         Self { precision }
     }
 
-    /// The value that a reader gets back. There is one zero: `-0` would be a second `vt` for the same place.
+    /// The rounded value. There is one zero: `-0` would be a second `vt` for the same place.
     #[must_use]
     pub fn round(&self, uv: Vec2) -> Vec2 {
         match self.precision {
@@ -54,7 +54,6 @@ impl UvFormat {
 pub(super) struct TextureTable<'a> {
     corner_vertex: &'a [u32],
     corner_uv: &'a [Vec2],
-    format: UvFormat,
     /// The first value of each vertex, and the end of the last.
     start: Vec<u32>,
     /// A corner that has the value, one entry per value.
@@ -74,16 +73,14 @@ impl<'a> TextureTable<'a> {
         vertex_count: usize,
         corner_vertex: &'a [u32],
         corner_uv: &'a [Vec2],
-        format: UvFormat,
     ) -> io::Result<Self> {
-        check(corner_vertex, corner_uv, format)?;
-        let value = |corner: u32| format.round(corner_uv[corner as usize]);
+        check(corner_vertex, corner_uv)?;
+        let value = |corner: u32| written(corner_uv[corner as usize]);
         let first = first_corners(vertex_count, corner_vertex);
         let mut at_seams = corners_at_seams(corner_vertex, &first, value);
         let mut table = Self {
             corner_vertex,
             corner_uv,
-            format,
             start: Vec::with_capacity(vertex_count + 1),
             representative: Vec::with_capacity(vertex_count),
             seams: Vec::with_capacity(at_seams.len()),
@@ -152,14 +149,10 @@ impl<'a> TextureTable<'a> {
         self.split_vertices
     }
 
-    pub(super) fn format(&self) -> UvFormat {
-        self.format
-    }
-
     /// The values of some vertices.
     pub(super) fn values(&self, vertices: Range<usize>) -> impl Iterator<Item = Vec2> + '_ {
         let range = self.start[vertices.start] as usize..self.start[vertices.end] as usize;
-        self.representative[range].iter().map(|&corner| self.format.round(self.corner_uv[corner as usize]))
+        self.representative[range].iter().map(|&corner| written(self.corner_uv[corner as usize]))
     }
 
     /// For [`place`](Self::place), from `corner` on.
@@ -179,6 +172,11 @@ impl<'a> TextureTable<'a> {
         }
         self.start[self.corner_vertex[corner] as usize] as usize
     }
+}
+
+/// The value that stands in the file.
+fn written(uv: Vec2) -> Vec2 {
+    UvFormat::default().round(uv)
 }
 
 /// The first corner of each vertex; `NONE` where there is none.
@@ -217,11 +215,11 @@ fn corners_at_seams(
     at_seams
 }
 
-fn check(corner_vertex: &[u32], corner_uv: &[Vec2], format: UvFormat) -> io::Result<()> {
+fn check(corner_vertex: &[u32], corner_uv: &[Vec2]) -> io::Result<()> {
     if corner_uv.len() != corner_vertex.len() {
         return Err(invalid(format!("{} UVs for {} corners", corner_uv.len(), corner_vertex.len())));
     }
-    let is_bad = |&uv: &Vec2| !format.round(uv).iter().all(|x| x.is_finite());
+    let is_bad = |&uv: &Vec2| !uv.iter().all(|x| x.is_finite());
     if !corner_uv.par_chunks(1 << 14).any(|some| some.iter().any(is_bad)) {
         return Ok(());
     }
@@ -264,7 +262,7 @@ mod tests {
             let corner_vertex: Vec<u32> = corners.iter().map(|c| c.0 * c.0 / 8).collect();
             let uv: Vec<Vec2> =
                 corners.iter().map(|c| Vec2::new(f64::from(c.1 % kinds), -f64::from(c.2 % kinds) + 0.0)).collect();
-            let table = TextureTable::new(18, &corner_vertex, &uv, UvFormat::default()).expect("finite");
+            let table = TextureTable::new(18, &corner_vertex, &uv).expect("finite");
             let mut seams = table.seam_corners(0);
             let places: Vec<usize> = (0..uv.len()).map(|corner| table.place(corner, &mut seams)).collect();
             let values: Vec<Vec2> = table.values(0..7).chain(table.values(7..18)).collect();
@@ -274,10 +272,8 @@ mod tests {
     }
 
     #[test]
-    fn single_precision_merges_what_it_cannot_tell_apart() {
-        let uv = [Vec2::new(0.1, 0.0), Vec2::new(0.1 + 1e-12, -0.0)];
-        let count = |format| TextureTable::new(1, &[0, 0], &uv, format).expect("finite").len();
-        assert_eq!(count(UvFormat::default()), 2);
-        assert_eq!(count(UvFormat::with_precision(UvPrecision::Single)), 1);
+    fn both_zeros_are_one_value() {
+        let uv = [Vec2::new(0.1, 0.0), Vec2::new(0.1, -0.0), Vec2::new(0.1 + 1e-12, 0.0)];
+        assert_eq!(TextureTable::new(1, &[0, 0, 0], &uv).expect("finite").len(), 2);
     }
 }

@@ -9,7 +9,7 @@ use super::corner::Corners;
 use super::output::{Piece, write_pieces};
 use super::plan::{Job, Plan};
 use super::text::{Keyword, Statement, Statements, usual_line_end};
-use super::texture::{SeamCorners, TextureTable, UvFormat};
+use super::texture::{SeamCorners, TextureTable};
 use crate::Vec2;
 
 /// What writing UVs did to the text.
@@ -53,31 +53,17 @@ impl ObjDocument {
     /// # Errors
     /// What `out` reports, and `InvalidInput` when there is not one finite UV per corner; then nothing is written.
     pub fn write_with_uv(&self, out: &mut impl Write, corner_uv: &[Vec2]) -> io::Result<UvWriteSummary> {
-        self.write_with_uv_as(out, corner_uv, UvFormat::default())
-    }
-
-    /// As [`write_with_uv`](Self::write_with_uv), with a choice of digits.
-    ///
-    /// # Errors
-    /// As [`write_with_uv`](Self::write_with_uv).
-    pub fn write_with_uv_as(
-        &self,
-        out: &mut impl Write,
-        corner_uv: &[Vec2],
-        format: UvFormat,
-    ) -> io::Result<UvWriteSummary> {
-        self.write_in_chunks(out, corner_uv, format, CHUNK)
+        self.write_in_chunks(out, corner_uv, CHUNK)
     }
 
     fn write_in_chunks(
         &self,
         out: &mut impl Write,
         corner_uv: &[Vec2],
-        format: UvFormat,
         chunk: usize,
     ) -> io::Result<UvWriteSummary> {
         let view = self.view();
-        let table = TextureTable::new(view.positions.len(), view.corner_vertex, corner_uv, format)?;
+        let table = TextureTable::new(view.positions.len(), view.corner_vertex, corner_uv)?;
         let plan = Plan::new(self.bytes(), chunk, view.positions.len());
         let old = self.texture_coordinates().len();
         let summary = UvWriteSummary {
@@ -116,14 +102,14 @@ impl Editor<'_> {
             Job::Text(range, first_face) => self.edit(range.clone(), *first_face, out),
             Job::Values(vertices) => {
                 for uv in self.table.values(vertices.clone()) {
-                    out.texture(uv, self.table.format());
+                    out.texture(uv);
                     out.bytes(self.line_end);
                 }
             }
             Job::ValuesAfter(vertices) => {
                 for uv in self.table.values(vertices.clone()) {
                     out.bytes(self.line_end);
-                    out.texture(uv, self.table.format());
+                    out.texture(uv);
                 }
             }
             Job::Close => {
@@ -191,7 +177,7 @@ mod tests {
                 (0..document.corner_count()).map(|c| Vec2::new((c % values) as f64 / 3.0, (c / 7 % values) as f64)).collect();
             let written = |chunk: usize| {
                 let mut out = Vec::new();
-                let summary = document.write_in_chunks(&mut out, &uv, UvFormat::default(), chunk).expect("to memory");
+                let summary = document.write_in_chunks(&mut out, &uv, chunk).expect("to memory");
                 (String::from_utf8_lossy(&out).into_owned(), summary)
             };
             prop_assert_eq!(written(size), written(usize::MAX));

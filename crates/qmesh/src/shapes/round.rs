@@ -69,7 +69,7 @@ fn on_sphere(flat: Vec3, turns: f64) -> Vec3 {
 pub fn finger(rings: usize, rows: usize) -> QuadMesh {
     let rings = rings.clamp(1, MOST);
     let around = 8 * rings;
-    let rows = rows.clamp(1, super::lattice::MOST_FACES / around - 2 * rings);
+    let rows = rows.clamp(1, most_rows(rings));
     let side = 2.0 * sin_cos(0.5 / around as f64)[0];
     let mut polygons = o_grid(rings);
     for position in &mut polygons.positions {
@@ -84,6 +84,11 @@ pub fn finger(rings: usize, rows: usize) -> QuadMesh {
         push_ring(&mut polygons, rim + (row - 1) * around, rim + row * around, around);
     }
     built(polygons)
+}
+
+/// Rows of a tube that leave room for its tip: `12·rings²` quads, as many as `1.5·rings` rows have.
+fn most_rows(rings: usize) -> usize {
+    super::lattice::MOST_FACES / (8 * rings) - (3 * rings).div_ceil(2)
 }
 
 /// The quads between two loops of `around` vertices each, the first of which lies inside.
@@ -223,5 +228,21 @@ impl CubeSurface {
             _ => n + 1 + 2 * (y - 1) + usize::from(x == n),
         };
         below + within
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// At any size there is room for a tube of at least one row, and none for more faces than there may be.
+    #[test]
+    fn fingers_of_any_size_have_a_tube() {
+        for rings in 1..=MOST {
+            let rows = most_rows(rings);
+            let faces = |rows: usize| 12 * rings * rings + 8 * rings * rows;
+            assert!(rows >= 1 && faces(rows) <= super::super::lattice::MOST_FACES, "{rings} rings");
+            assert!(faces(rows + 2) > super::super::lattice::MOST_FACES, "{rings} rings");
+        }
     }
 }

@@ -164,10 +164,16 @@ fn face_and_head_are_clean_disks_at_every_resolution() {
 /// The mesh converges to one surface: more detail moves no point of it by more than a small part of a quad.
 #[test]
 fn more_detail_refines_the_same_head() {
-    let (coarse, fine) = (head(2), head(3));
+    let (coarse, fine) = (head(2), head(4));
     let shared = head(1).vertex_count();
     for (a, b) in coarse.positions().iter().zip(fine.positions().iter()).take(shared) {
         assert!((a - b).norm() < 1e-9, "the vertices of the cage come first and stay");
+    }
+    for vertex in coarse.vertices() {
+        let away = |p: &Vec3| (p - coarse.position(vertex)).norm();
+        let nearest = fine.positions().iter().map(away).fold(f64::INFINITY, f64::min);
+        let longest = coarse.outgoing(vertex).map(|h| coarse.edge_length(coarse.edge(h))).fold(0.0, f64::max);
+        assert!(nearest < 1e-9 * longest, "{vertex}: {nearest} of {longest}");
     }
 }
 

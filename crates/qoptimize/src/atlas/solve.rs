@@ -48,14 +48,14 @@ pub(super) fn all(
         return charts.into_iter().map(|chart| alone(chart, before, &options.map, observer)).collect();
     }
     let map = of_many(options);
-    let shared = Shared { observer, done: AtomicUsize::new(0), total: charts.len() };
+    let shared = Shared::new(observer, "islands", charts.len());
     let solve = |chart: Chart, before: &mut Continuation| {
         let solved = if keep::is_touched(&chart, &options.keep) {
             keep::solve(chart, &options.keep, &map, &shared)
         } else {
             among_others(chart, before, &map, &shared)
         };
-        shared.done.fetch_add(1, Ordering::Relaxed);
+        shared.count_one();
         solved
     };
     let charts = charts.into_par_iter();
@@ -72,15 +72,27 @@ pub(super) fn of_many(options: &AtlasOptions) -> Options {
 }
 
 /// Hands on the request to stop, and says how many islands are done.
-struct Shared<'a> {
+pub(super) struct Shared<'a> {
     observer: &'a dyn Observer,
+    stage: &'static str,
     done: AtomicUsize,
     total: usize,
 }
 
+impl<'a> Shared<'a> {
+    pub(super) fn new(observer: &'a dyn Observer, stage: &'static str, total: usize) -> Self {
+        Self { observer, stage, done: AtomicUsize::new(0), total }
+    }
+
+    /// One more is done.
+    pub(super) fn count_one(&self) {
+        self.done.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
 impl Observer for Shared<'_> {
     fn progress(&self, _: &'static str, _: f64) -> ControlFlow<()> {
-        self.observer.progress("islands", self.done.load(Ordering::Relaxed) as f64 / self.total as f64)
+        self.observer.progress(self.stage, self.done.load(Ordering::Relaxed) as f64 / self.total as f64)
     }
 
     fn is_late(&self) -> bool {

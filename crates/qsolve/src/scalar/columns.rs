@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::conjugate::{Iterated, conjugate_gradients, in_order, multiply};
 use super::elimination::Eliminated;
 use super::hierarchy::Cycles;
+use super::sparse::times_power_of_two;
 use super::{GRAIN, ScalarMultigrid};
 use crate::product::{norm, ratio};
 
@@ -40,7 +41,8 @@ pub(super) fn solve_columns<const K: usize>(
     let n = given.len() / K;
     let row_of = |row: usize| system.order.as_ref().map_or(row, |order| order[row] as usize);
     let size: [f64; K] = std::array::from_fn(|k| norm(&given[k * n..(k + 1) * n]));
-    let scale = size.map(power_of_two_near);
+    let exponent = size.map(exponent_near);
+    let scale = exponent.map(|exponent| f64::from(exponent).exp2());
     let b = |row: usize| -> [f64; K] { std::array::from_fn(|k| given[k * n + row_of(row)] / scale[k]) };
     let is_open = size.map(|size| size > 0.0);
     let reached = is_open.map(|is_open| if is_open { 1.0 } else { 0.0 });
@@ -69,7 +71,9 @@ pub(super) fn solve_columns<const K: usize>(
         }
     }
     for (k, out) in out.chunks_mut(n).enumerate() {
-        columns.x.iter().enumerate().for_each(|(row, x)| out[row_of(row)] = scale[k] * x[k]);
+        columns.x.iter().enumerate().for_each(|(row, x)| {
+            out[row_of(row)] = times_power_of_two(x[k], exponent[k] - system.exponent);
+        });
     }
     (columns.reached, columns.taken)
 }
@@ -104,9 +108,9 @@ impl<const K: usize> Columns<K> {
     }
 }
 
-/// By what a right-hand side of this norm is divided: exactly, and so that squares are in range.
-fn power_of_two_near(size: f64) -> f64 {
-    if size > 0.0 && size.is_finite() { size.log2().round().clamp(-1000.0, 1000.0).exp2() } else { 1.0 }
+/// The power of two by which a right-hand side of this norm is divided: exactly, and so that squares are in range.
+fn exponent_near(size: f64) -> i32 {
+    if size > 0.0 && size.is_finite() { size.log2().round().clamp(-1000.0, 1000.0) as i32 } else { 0 }
 }
 
 /// `x += y`.

@@ -37,7 +37,7 @@ use conjugate::Preconditioner;
 use elimination::Elimination;
 use hierarchy::{Cycles, Hierarchy, Work};
 use order::{better_order, permuted};
-use sparse::Sparse;
+use sparse::{Sparse, times_power_of_two};
 
 /// Rows that one task takes.
 const GRAIN: usize = 4096;
@@ -67,7 +67,9 @@ const GRAIN: usize = 4096;
 /// ```
 #[derive(Debug)]
 pub struct ScalarMultigrid {
+    /// Of the matrix over `2^exponent`.
     hierarchy: Hierarchy,
+    exponent: i32,
     /// Which row of the caller's each row is, where they were put in another order.
     order: Option<Vec<u32>>,
     elimination: OnceLock<Elimination>,
@@ -85,13 +87,14 @@ impl ScalarMultigrid {
         let BlockMatrix { starts, columns, values } = matrix;
         let mut matrix = Sparse { starts, columns, values: values.into_flattened().into_flattened() };
         matrix.check_finite()?;
+        let exponent = matrix.normalize();
         let order = better_order(&matrix);
         if let Some(order) = &order {
             matrix = permuted(&matrix, order);
         }
         let hierarchy = Hierarchy::new(matrix).map_err(|error| in_given_order(error, order.as_deref()))?;
         let (elimination, spare) = (OnceLock::new(), Mutex::default());
-        Ok(Self { hierarchy, order, elimination, max_iterations, spare })
+        Ok(Self { hierarchy, exponent, order, elimination, max_iterations, spare })
     }
 
     /// Rows of each level, the finest first.
@@ -110,18 +113,23 @@ impl ScalarMultigrid {
         match &self.order {
             None => {
                 cycles.apply(r.as_chunks::<1>().0);
-                z.par_iter_mut().with_min_len(GRAIN).zip(cycles.z()).for_each(|(z, x)| *z = f64::from(x[0]));
+                let answers = z.par_iter_mut().with_min_len(GRAIN).zip(cycles.z());
+                answers.for_each(|(z, x)| *z = self.scaled_back(x[0]));
             }
             Some(order) => {
                 let sorted: Vec<[f64; 1]> = order.iter().map(|&row| [r[row as usize]]).collect();
                 cycles.apply(&sorted);
-                order.iter().zip(cycles.z()).for_each(|(&row, x)| z[row as usize] = f64::from(x[0]));
+                order.iter().zip(cycles.z()).for_each(|(&row, x)| z[row as usize] = self.scaled_back(x[0]));
             }
         }
         let work = cycles.into_work();
         if let Ok(mut spare) = self.spare.lock() {
             spare.push(work);
         }
+    }
+
+    fn scaled_back(&self, x: f32) -> f64 {
+        times_power_of_two(f64::from(x), -self.exponent)
     }
 
     /// The factors for matrices that coarser levels do not serve, made when they are first asked for.
@@ -166,6 +174,9 @@ impl LinearSolver for ScalarMultigrid {
                 residuals.extend(reached);
                 iterations = iterations.max(taken[0]);
             }
+        }
+        if values.par_chunks(GRAIN).any(|chunk| chunk.iter().any(|value| !value.is_finite())) {
+            return Err(SolveError::Singular { row: None });
         }
         let relative_residual = residuals.into_iter().fold(0.0, f64::max);
         if relative_residual <= bound {

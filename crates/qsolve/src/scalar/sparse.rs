@@ -76,6 +76,31 @@ impl Sparse<f64> {
         let rows = (0..self.rows()).into_par_iter().with_min_len(ROWS);
         rows.filter_map(bad).find_first(|_| true).map_or(Ok(()), Err)
     }
+
+    /// Divides by a power of two near the largest entry, so that single precision has room on both sides, and gives its exponent.
+    /// That is even: square roots are divided exactly too.
+    pub(super) fn normalize(&mut self) -> i32 {
+        let sizes = self.values.par_iter().with_min_len(ROWS).map(|value| value.abs());
+        let largest = sizes.reduce(|| 0.0, f64::max);
+        if largest == 0.0 {
+            return 0;
+        }
+        let exponent = 2 * (0.5 * largest.log2()).round() as i32;
+        let values = self.values.par_iter_mut().with_min_len(ROWS);
+        values.for_each(|value| *value = times_power_of_two(*value, -exponent));
+        exponent
+    }
+}
+
+/// `x · 2^exponent`: infinite where that is out of range.
+pub(super) fn times_power_of_two(mut x: f64, mut exponent: i32) -> f64 {
+    // In steps that are numbers themselves.
+    while exponent != 0 {
+        let step = exponent.clamp(-1000, 1000);
+        x *= f64::from(step).exp2();
+        exponent -= step;
+    }
+    x
 }
 
 impl Sparse<f32> {

@@ -1,8 +1,8 @@
 //! Automatic seams: whatever closed surface or handle there is, one cut leaves one planar patch, and Euler's formula
 //! counts its loops.
 
-use qcurv::qmesh::{Chart, EdgeId, Polygons, QuadMesh, Vec3, shapes};
-use qcurv::seams::{SeamCost, cheapest_path, creases, opening, tips};
+use qcurv::qmesh::{Chart, EdgeId, Polygons, QuadMesh, Vec3, VertexId, shapes};
+use qcurv::seams::{SeamCost, cheapest_path, creases, tips};
 
 /// The surface of a plate of unit cubes with `holes` holes in a row, each face cut into `n × n` quads: genus `holes`.
 fn plate(holes: usize, n: usize) -> QuadMesh {
@@ -52,6 +52,10 @@ fn plate(holes: usize, n: usize) -> QuadMesh {
     QuadMesh::build(polygons).expect("a closed surface")
 }
 
+fn opening(mesh: &QuadMesh) -> Vec<EdgeId> {
+    qcurv::seams::opening(mesh, &()).expect("nobody interrupts")
+}
+
 fn closed() -> Vec<(String, QuadMesh)> {
     let mut all = vec![
         ("sphere".to_owned(), shapes::sphere(7)),
@@ -84,6 +88,16 @@ fn seams_open_every_closed_surface() {
         ends.dedup();
         assert_eq!(seams.len() as i64 - ends.len() as i64, 2 * genus - 1, "{name}: connected, with 2g loops");
     }
+}
+
+/// Where no two vertices lie apart there are no paths, but a slit of two edges.
+#[test]
+fn a_surface_in_one_point_gets_a_slit() {
+    let mesh = shapes::sphere(4);
+    let mesh = mesh.clone().with_positions(mesh.vertex_data(|_| Vec3::zeros()));
+    let seams = opening(&mesh);
+    assert_eq!(seams.len(), 2);
+    assert!(cut(&mesh, &seams).topology().is_disk());
 }
 
 /// Holes stay holes; what is a patch already is left alone.
@@ -138,26 +152,30 @@ fn seams_prefer_creases() {
     assert!(2 * along.count() > seams.len(), "most of the seam lies on creases");
 }
 
-/// Tips are where limbs end: a plate has none inside, four at its corners or fewer; a finger has one.
+/// Tips are where limbs end: a finger has one, at its far end; a plate has them at its ends and none inside, a sphere none.
 #[test]
 fn tips_are_the_ends_of_limbs() {
-    let long = plate(0, 3);
-    let stretched = long
+    let tips = |mesh: &QuadMesh| tips(mesh, &()).unwrap();
+    let finger = shapes::finger(4, 60);
+    let height = |vertex| finger.position(vertex).z;
+    let top = finger.vertices().map(height).fold(f64::MIN, f64::max);
+    let found: Vec<VertexId> = tips(&finger).into_iter().filter(|&tip| !finger.is_boundary(tip)).collect();
+    assert!(found.len() == 1 && height(found[0]) > 0.9 * top, "{found:?}");
+    let plate = plate(0, 3);
+    let plate = plate
         .clone()
-        .with_positions(long.vertex_data(|v| long.position(v).component_mul(&Vec3::new(12.0, 1.0, 1.0))));
-    let found = tips(&stretched);
-    let ends: Vec<f64> = found.iter().map(|&tip| stretched.position(tip).x).collect();
+        .with_positions(plate.vertex_data(|v| plate.position(v).component_mul(&Vec3::new(12.0, 1.0, 1.0))));
+    let ends: Vec<f64> = tips(&plate).into_iter().map(|tip| plate.position(tip).x).collect();
     assert!(ends.iter().any(|&x| x < 1.0) && ends.iter().any(|&x| x > 11.0), "{ends:?}");
+    assert!(ends.iter().all(|&x| !(1.0..=11.0).contains(&x)), "none inside: {ends:?}");
     assert!(tips(&shapes::sphere(8)).len() < 2, "a sphere has no limbs");
 }
 
 /// A power of two rounds nothing: the same seams.
 #[test]
 fn size_does_not_matter() {
-    let mesh = plate(1, 3);
-    let scaled = mesh.clone().with_positions(mesh.vertex_data(|v| mesh.position(v) / 1024.0));
-    let length =
-        |mesh: &QuadMesh, seams: &[EdgeId]| seams.iter().map(|&edge| mesh.edge_length(edge)).sum::<f64>();
-    let [a, b] = [length(&mesh, &opening(&mesh)), 1024.0 * length(&scaled, &opening(&scaled))];
-    assert!((a - b).abs() < 1e-6 * a, "{a} {b}");
+    for mesh in [plate(1, 3), shapes::sphere(7), shapes::torus(14, 9)] {
+        let scaled = mesh.clone().with_positions(mesh.vertex_data(|v| mesh.position(v) / 1024.0));
+        assert_eq!(opening(&mesh), opening(&scaled));
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use clap::ValueEnum;
@@ -16,7 +16,7 @@ use qoptimize::{Atlas, AtlasOptions, Certificate, Method, Options, RunRecord};
 
 use crate::args::{MapArgs, UnwrapArgs};
 use crate::boundary;
-use crate::choices::{BoundaryChoice, MethodChoice, RuleChoice};
+use crate::choices::{BoundaryChoice, MethodChoice};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
@@ -24,7 +24,6 @@ use crate::interrupt::Phase;
 use crate::islands::{refuse_repairs, trades};
 use crate::json_text;
 use crate::keep;
-use crate::layout_args::SeamSource;
 use crate::output::{Outputs, Target, together};
 use crate::page_report::{self, Source};
 use crate::pins;
@@ -37,6 +36,12 @@ use crate::streams::Streams;
 use crate::threads;
 use crate::translate::{no_atlas, refused};
 use crate::worst::{self, WorstReport};
+
+mod notes;
+mod places;
+
+use notes::notes;
+use places::{output_path, refuse_clashes};
 
 /// What a run has gathered before it computes.
 struct Job<'a> {
@@ -138,130 +143,6 @@ fn timed<T>(seconds: &mut f64, work: impl FnOnce() -> T) -> T {
     let result = work();
     *seconds = clock.elapsed().as_secs_f64();
     result
-}
-
-/// `IN_uv.obj` beside the input, unless the caller says otherwise.
-fn output_path(arguments: &UnwrapArgs) -> PathBuf {
-    let input = &arguments.input;
-    match &arguments.output {
-        Some(path) => path.clone(),
-        None if input.as_os_str() == "-" => input.clone(),
-        None => {
-            let mut name = input.file_stem().unwrap_or_default().to_owned();
-            name.push("_uv");
-            if let Some(extension) = input.extension() {
-                name.push(".");
-                name.push(extension);
-            }
-            input.with_file_name(name)
-        }
-    }
-}
-
-/// Two outputs, or two inputs, in one place.
-fn refuse_clashes(
-    arguments: &UnwrapArgs,
-    target: &Target,
-    simplified: Option<&Target>,
-    page: Option<&Target>,
-) -> Result<(), Failure> {
-    let refuse = |what: &str, help: &str| Err(Failure::new(Exit::Usage, what).help(help));
-    let dash = |path: Option<&PathBuf>| path.is_some_and(|path| path.as_os_str() == "-");
-    if simplified.is_some_and(|simplified| simplified.is_same_place(target)) {
-        return refuse(
-            "the UVs and the simplified mesh would go to the same place",
-            "name two different files with -o and --simplified",
-        );
-    }
-    let input = Target::new(&arguments.input);
-    if let Some(page) = page
-        && [Some(target), simplified, Some(&input)]
-            .into_iter()
-            .flatten()
-            .any(|other| page.is_same_place(other))
-    {
-        return refuse(
-            "the page would go to the same place as a mesh",
-            "name another file with --report, one that ends in .html",
-        );
-    }
-    if page == Some(&Target::Stdout) {
-        return refuse("the page would be mixed with the report", "name a file with --report");
-    }
-    let is_file = |target: &Target| matches!(target, Target::File(_));
-    if simplified.is_some_and(|simplified| is_file(simplified) && simplified.is_same_place(&input)) {
-        return refuse(
-            "the simplified mesh would replace the input",
-            "name another file with --simplified: what was removed cannot be brought back",
-        );
-    }
-    let inputs = [Some(&arguments.input), arguments.map.boundary_uv.as_ref(), arguments.pins.as_ref()];
-    let seams = arguments.layout.seams.iter().map(SeamSource::file);
-    if inputs.into_iter().chain(seams).filter(|&path| dash(path)).count() > 1 {
-        return refuse(
-            "standard input cannot be read twice",
-            "name a file for the mesh, for --boundary-uv, for --pins and for --seams",
-        );
-    }
-    if arguments.json && simplified == Some(&Target::Stdout) {
-        return refuse(
-            "the simplified mesh and the JSON report would both go to standard output",
-            "name a file with --simplified",
-        );
-    }
-    Ok(())
-}
-
-/// Options that were typed though nothing reads them.
-fn notes(arguments: &UnwrapArgs, typed: &[String]) -> Vec<String> {
-    const PAPER_ONLY: &[&str] = &[
-        "rule",
-        "remove-fraction",
-        "remove-below",
-        "curvature",
-        "area",
-        "side",
-        "exponent",
-        "weights",
-        "mixing",
-        "no-overlap-removal",
-        "lambda1",
-        "lambda2",
-        "order",
-        "max-moves",
-    ];
-    const REMOVAL: &[&str] = &["remove-fraction", "remove-below", "curvature", "area", "side"];
-    let method = arguments.map.method;
-    let minimises = matches!(method, MethodChoice::Direct | MethodChoice::Conformal);
-    let unread = |name: &str| {
-        if name == "q" && method != MethodChoice::Paper && !minimises {
-            return Some("only paper, direct and conformal read it");
-        }
-        if !minimises && ["shape", "angle-term", "max-steps", "relative-decrease"].contains(&name) {
-            return Some("the method minimises no energy");
-        }
-        if method == MethodChoice::Conformal && ["shape", "angle-term"].contains(&name) {
-            return Some("only direct reads it");
-        }
-        if minimises && ["backend", "residual-bound", "max-iterations"].contains(&name) {
-            return Some("Newton systems have solvers of their own");
-        }
-        if method != MethodChoice::Paper && PAPER_ONLY.contains(&name) {
-            return Some("the method is not `paper`");
-        }
-        let shape = !matches!(arguments.map.boundary, BoundaryChoice::Auto | BoundaryChoice::Free);
-        if method == MethodChoice::Lscm && name == "boundary" && shape {
-            return Some("the boundary of lscm is free");
-        }
-        if method == MethodChoice::Paper && arguments.map.rule == RuleChoice::None {
-            return (REMOVAL.contains(&name) || ["q", "weights", "mixing"].contains(&name))
-                .then_some("--rule none removes no vertex");
-        }
-        let overlaps = ["lambda1", "lambda2", "order", "max-moves"];
-        (arguments.map.no_overlap_removal && overlaps.contains(&name))
-            .then_some("overlaps are left as they are")
-    };
-    typed.iter().filter_map(|name| Some(format!("--{name} has no effect: {}", unread(name)?))).collect()
 }
 
 impl Job<'_> {

@@ -27,7 +27,7 @@ pub use paths::{SeamPaths, cheapest_path};
 pub use tips::tips;
 
 use interrupted::look;
-use qmesh::{Chart, EdgeId, FaceId, Id, Observer, QuadMesh, Seams, Topology, VertexId};
+use qmesh::{Chart, CornerId, EdgeId, FaceId, Id, Observer, QuadMesh, Seams, Topology, VertexId};
 
 /// The edges along which to cut the connected `mesh` so that one planar patch is left: none when it is one already.
 ///
@@ -145,15 +145,22 @@ fn any_opening(mesh: &QuadMesh) -> Vec<EdgeId> {
             }
         }
     }
-    let pruned = prune(mesh, mesh.edges().filter(|&edge| is_cut[edge]).collect());
+    let all: Vec<EdgeId> = mesh.edges().filter(|&edge| is_cut[edge]).collect();
+    let pruned = prune(mesh, all.clone());
     // Of a closed sphere nothing is left: any two edges in a row open it.
-    if pruned.is_empty() { slit(mesh) } else { pruned }
+    let opening = if pruned.is_empty() { slit(mesh) } else { pruned };
+    if is_opened(mesh, &opening) { opening } else { all }
 }
 
-/// The first two edges of a face: opened together they are a slit, one alone opens nothing.
+/// The first two edges in a row between three vertices: opened together they are a slit, where one alone opens nothing and a loop of two cuts
+/// a piece out. None where all faces go to and fro between two vertices.
 fn slit(mesh: &QuadMesh) -> Vec<EdgeId> {
-    let mut edges: Vec<EdgeId> =
-        mesh.face_corners(FaceId(0)).take(2).map(|corner| mesh.edge(corner.halfedge())).collect();
+    let in_a_row = mesh.corners().map(CornerId::halfedge).find_map(|first| {
+        let second = mesh.next(first);
+        let [start, middle, end] = [mesh.origin(first), mesh.target(first), mesh.target(second)];
+        (start != middle && middle != end && start != end).then(|| vec![mesh.edge(first), mesh.edge(second)])
+    });
+    let mut edges = in_a_row.unwrap_or_default();
     edges.sort_unstable();
     edges
 }

@@ -6,6 +6,7 @@
 /// let mut sets = qmesh::Components::new(4);
 /// assert!(sets.join(3, 1) && sets.join(1, 2) && !sets.join(2, 3));
 /// assert_eq!([0, 1, 2, 3].map(|index| sets.root(index)), [0, 1, 1, 1]);
+/// assert_eq!(sets.numbered(), (vec![0, 1, 1, 1], 2));
 /// ```
 #[derive(Clone, Debug)]
 pub struct Components {
@@ -52,5 +53,18 @@ impl Components {
             anchored[self.root(anchor) as usize] = true;
         }
         (0..self.parent.len() as u32).map(|i| anchored[self.root(i) as usize]).collect()
+    }
+
+    /// The number of the set that each index is in, in the order of their smallest indices, and how many sets there are.
+    #[must_use]
+    pub fn numbered(mut self) -> (Vec<u32>, usize) {
+        let mut count = 0;
+        let mut number = vec![0; self.parent.len()];
+        for index in 0..number.len() as u32 {
+            let root = self.root(index);
+            number[index as usize] = if root == index { count } else { number[root as usize] };
+            count += u32::from(root == index);
+        }
+        (number, count as usize)
     }
 }

@@ -6,7 +6,7 @@
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
-use qembed::qmesh::{PolygonView, Vec2};
+use qembed::qmesh::{Components, PolygonView, Vec2};
 use rayon::prelude::*;
 
 use super::buckets::Buckets;
@@ -68,9 +68,11 @@ impl Islands {
         });
         let twin: Vec<u32> = twin.into_iter().map(AtomicU32::into_inner).collect();
 
-        let mut sets = DisjointSets::new(polygons.face_count());
+        let mut sets = Components::new(polygons.face_count());
         let (mut boundary, mut nonmanifold) = (Vec::new(), Vec::new());
-        let mut join = |a: u32, b: u32| sets.join(face_of[a as usize], face_of[b as usize]);
+        let mut join = |a: u32, b: u32| {
+            sets.join(face_of[a as usize], face_of[b as usize]);
+        };
         for part in found {
             boundary.extend(part.boundary);
             nonmanifold.extend(part.nonmanifold);
@@ -118,7 +120,7 @@ impl Islands {
         };
         let pinches = points.iter().filter(|&&p| times(&starts, p) != 1 || times(&stops, p) != 1).count();
 
-        let mut sets = DisjointSets::new(points.len());
+        let mut sets = Components::new(points.len());
         let place = |point: u32| points.partition_point(|&p| p < point) as u32;
         for &corner in &self.boundary {
             let [a, b] = self.ends(corner);
@@ -187,38 +189,4 @@ struct Found {
     nonmanifold: Vec<(u32, u32)>,
     /// Corners at edges that are no pair's, whose faces are joined all the same.
     joined: Vec<[u32; 2]>,
-}
-
-/// Union-find with path halving; the smaller number is the root.
-struct DisjointSets(Vec<u32>);
-
-impl DisjointSets {
-    fn new(count: usize) -> Self {
-        Self((0..count as u32).collect())
-    }
-
-    fn root(&mut self, mut item: u32) -> u32 {
-        while self.0[item as usize] != item {
-            self.0[item as usize] = self.0[self.0[item as usize] as usize];
-            item = self.0[item as usize];
-        }
-        item
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
-
-    /// The number of each item's set, in order of first items, and how many sets there are.
-    fn numbered(mut self) -> (Vec<u32>, usize) {
-        let mut count = 0;
-        let mut number = vec![0; self.0.len()];
-        for item in 0..number.len() as u32 {
-            let root = self.root(item);
-            number[item as usize] = if root == item { count } else { number[root as usize] };
-            count += u32::from(root == item);
-        }
-        (number, count as usize)
-    }
 }
